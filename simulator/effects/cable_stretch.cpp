@@ -1,0 +1,65 @@
+#include "simulator/effects/cable_stretch.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "simulator/effects/parameters.h"
+
+namespace plumbline::effects {
+namespace {
+
+enum Index : std::size_t { kStiffness, kDamping };
+
+constexpr double kDampingRatio = 0.3;  // of the stretch a diagnosis starts from
+
+}  // namespace
+
+const Declaration& CableStretch::declaration() const {
+  static const Declaration kDeclaration{
+      "cable_stretch",
+      "a damped spring in a ratio that was rigid",
+      "f = -(stiffness*x + damping*v)",
+      "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
+      "IEEE Control Systems Magazine 31(2), 2011, equations 23 to 25 (with the sign that restores)",
+      {Place::ratio},
+      {Parameter{"stiffness", "{force}/{position}", "stiffness felt at the motor; infinite: rigid", kInfinity,
+                 kSmallestPositive, kInfinity, Scale::reciprocal, false},
+       non_negative("damping", "{force} s/{position}", "damping felt at the motor")},
+      {},
+      ""};
+  return kDeclaration;
+}
+
+Values CableStretch::typical(const Scales& scales) const {
+  const Scales s = guarded(scales);
+  return {s.force / s.position, s.force / s.velocity};
+}
+
+std::vector<Values> CableStretch::starts(const Scales& scales) const {
+  const double inertia = guarded(scales).inertia;
+  std::vector<Values> grid;
+  for (const double frequency : {6.0, 18.0, 50.0}) {
+    const double rate = 2.0 * kPi * frequency;
+    grid.push_back({inertia * rate * rate, 2.0 * kDampingRatio * inertia * rate});
+  }
+  return grid;
+}
+
+bool CableStretch::is_null(const double* p) const { return std::isinf(p[kStiffness]); }
+
+double CableStretch::force(const Motion& m, const double* /*state*/, const double* p) const {
+  if (is_null(p)) return 0.0;
+  return -(p[kStiffness] * m.position + p[kDamping] * m.velocity);
+}
+
+double CableStretch::stored_energy(const Motion& m, const double* /*state*/, const double* p) const {
+  if (is_null(p)) return 0.0;
+  return 0.5 * p[kStiffness] * m.position * m.position;
+}
+
+double CableStretch::dissipated_power(const Motion& m, const double* /*state*/, const double* p) const {
+  if (is_null(p)) return 0.0;
+  return p[kDamping] * m.velocity * m.velocity;
+}
+
+}  // namespace plumbline::effects

@@ -1,0 +1,64 @@
+#include "simulator/effects/parameters.h"
+
+#include <cmath>
+
+namespace plumbline::effects {
+namespace {
+
+constexpr double kStandardSmoothingSpeed = 0.01;  // where no trial gives a better one
+constexpr double kTiny = 1e-12;                   // magnitudes below are taken as "not known"
+
+double positive_or_one(double value) { return std::isfinite(value) && value > kTiny ? value : 1.0; }
+
+}  // namespace
+
+Parameter any(const std::string& name, const std::string& unit, const std::string& meaning) {
+  return {name, unit, meaning, 0.0, -kInfinity, kInfinity, Scale::linear, false};
+}
+
+Parameter non_negative(const std::string& name, const std::string& unit, const std::string& meaning) {
+  return {name, unit, meaning, 0.0, 0.0, kInfinity, Scale::linear, false};
+}
+
+Parameter positive(const std::string& name, const std::string& unit, const std::string& meaning,
+                   double standard) {
+  return {name, unit, meaning, standard, kSmallestPositive, kInfinity, Scale::logarithm, false};
+}
+
+Parameter fixed(const std::string& name, const std::string& unit, const std::string& meaning, double standard,
+                double lower, double upper) {
+  return {name, unit, meaning, standard, lower, upper, Scale::linear, true};
+}
+
+Parameter smoothing_speed() {
+  return fixed("smoothing_speed", "{position}/s", "speed below which the sign of the velocity is smoothed",
+               kStandardSmoothingSpeed, kSmallestPositive, kInfinity);
+}
+
+Parameter fixed_rest() {
+  return fixed("rest", "{position}", "position from which the law measures", 0.0, -kInfinity, kInfinity);
+}
+
+Parameter fixed_side() {
+  return fixed("side", "1", "+1: acts above the position, -1: acts below it", 1.0, -1.0, 1.0);
+}
+
+Scales guarded(const Scales& scales) {
+  Scales result;
+  result.position = positive_or_one(scales.position);
+  result.velocity = positive_or_one(scales.velocity);
+  result.force = positive_or_one(scales.force);
+  result.inertia = positive_or_one(scales.inertia);
+  result.period = positive_or_one(scales.period);
+  result.center = std::isfinite(scales.center) ? scales.center : 0.0;
+  return result;
+}
+
+double smoothing_speed_for(const Scales& scales) { return 0.02 * guarded(scales).velocity; }
+
+double smooth_sign(double v, double speed) {
+  if (speed > 0.0) return std::tanh(v / speed);
+  return v == 0.0 ? 0.0 : std::copysign(1.0, v);
+}
+
+}  // namespace plumbline::effects

@@ -1,0 +1,55 @@
+// One integration method of SUNDIALS, as the Integrator drives it.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "simulator/integrate/bridge.h"
+#include "simulator/integrate/integrator.h"
+
+namespace plumbline::integrate {
+
+struct Counts {
+  long steps = 0, error_test_failures = 0, jacobian_evaluations = 0, restarts = 0;
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+
+  /// Begin at t with state x, as if new.
+  virtual void start(double t, const Eigen::VectorXd& x) = 0;
+  virtual void input_changed(bool keep_history) = 0;
+  /// Integrate to t_stop, or to the first switch before it: true, with `directions` filled; the method has
+  /// then begun anew behind the switch.
+  virtual bool advance(double t_stop) = 0;
+  virtual Counts counts() const = 0;
+
+  double time() const { return t_; }
+  void set_time(double t) { t_ = t; }
+  const Eigen::VectorXd& state() const { return x_; }
+  /// For each switching function: +1 rose, -1 fell, 0 did neither.
+  const std::vector<int>& directions() const { return directions_; }
+
+ protected:
+  Backend(Bridge& bridge, const Options& options)
+      : bridge_(bridge),
+        options_(options),
+        x_(Eigen::VectorXd::Zero(bridge.ode().size())),
+        directions_(static_cast<std::size_t>(bridge.ode().switch_count()), 0) {}
+
+  Bridge& bridge_;
+  const Options options_;
+  double t_ = 0.0;
+  Eigen::VectorXd x_;
+  std::vector<int> directions_;
+};
+
+/// options: valid, with one absolute tolerance for each state.
+std::unique_ptr<Backend> make_cvode_backend(Bridge& bridge, const Options& options);
+std::unique_ptr<Backend> make_arkode_backend(Bridge& bridge, const Options& options);
+
+}  // namespace plumbline::integrate

@@ -1,0 +1,152 @@
+// Backward differentiation formulas: CVODE with dense Newton iteration.
+#include <cvode/cvode.h>
+#include <cvode/cvode_proj.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "simulator/integrate/backend.h"
+#include "simulator/integrate/handles.h"
+
+namespace plumbline::integrate {
+
+namespace {
+
+struct FreeCvode {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+
+class CvodeBackend : public Backend {
+ public:
+  CvodeBackend(Bridge& bridge, const Options& options);
+
+  void start(double t, const Eigen::VectorXd& x) override;
+  void input_changed(bool keep_history) override;
+  bool advance(double t_stop) override;
+  Counts counts() const override;
+
+ private:
+  void configure();
+  void begin_anew();
+  void restart();
+  int evolve(double t_stop);
+  void require(int flag);
+  Counts counts_since_restart() const;
+
+  Context context_ = make_context();
+  Vector vector_, tolerance_view_;
+  Eigen::VectorXd tolerance_;
+  DenseSolver dense_;
+  std::unique_ptr<void, FreeCvode> memory_;
+  Counts earlier_;           // until the last restart
+  bool fresh_ = true;        // no step since the last restart
+  double first_step_ = 0.0;  // behind the last restart
+};
+
+CvodeBackend::CvodeBackend(Bridge& bridge, const Options& options)
+    : Backend(bridge, options),
+      vector_(view(x_, context_)),
+      tolerance_(options.absolute_tolerance),
+      dense_(vector_.get(), static_cast<int>(x_.size()), context_),
+      memory_(CVodeCreate(CV_BDF, context_.get())) {
+  tolerance_view_ = view(tolerance_, context_);
+  configure();
+}
+
+void CvodeBackend::configure() {
+  void* memory = memory_.get();
+  require(CVodeSetErrHandlerFn(memory, Bridge::message, &bridge_));
+  require(CVodeInit(memory, Bridge::rate, 0.0, vector_.get()));
+  require(CVodeSetUserData(memory, &bridge_));
+  require(CVodeSVtolerances(memory, options_.relative_tolerance, tolerance_view_.get()));
+  require(CVodeSetLinearSolver(memory, dense_.solver.get(), dense_.matrix.get()));
+  if (bridge_.ode().has_jacobian()) require(CVodeSetJacFn(memory, Bridge::jacobian));
+  if (bridge_.ode().has_projection()) require(CVodeSetProjFn(memory, Bridge::project_correction));
+  if (!directions_.empty()) {
+    require(CVodeRootInit(memory, static_cast<int>(directions_.size()), Bridge::switches));
+    require(CVodeSetNoInactiveRootWarn(memory));
+  }
+  if (options_.order > 0) require(CVodeSetMaxOrd(memory, options_.order));
+  if (options_.max_step > 0.0) require(CVodeSetMaxStep(memory, options_.max_step));
+  require(CVodeSetMaxNumSteps(memory, options_.max_steps));
+}
+
+void CvodeBackend::require(int flag) {
+  if (flag >= 0) return;
+  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
+  bridge_.fail("bdf", t_, name.get());
+}
+
+void CvodeBackend::begin_anew() {
+  require(CVodeReInit(memory_.get(), t_, vector_.get()));
+  fresh_ = true;
+}
+
+void CvodeBackend::start(double t, const Eigen::VectorXd& x) {
+  t_ = t;
+  x_ = x;
+  earlier_ = {};
+  first_step_ = 0.0;
+  require(CVodeSetInitStep(memory_.get(), 0.0));
+  begin_anew();
+}
+
+void CvodeBackend::restart() {
+  const Counts total = counts();
+  // The first order step that did well behind the last restart: better than to search for one again.
+  if (!fresh_) require(CVodeGetActualInitStep(memory_.get(), &first_step_));
+  require(CVodeSetInitStep(memory_.get(), first_step_));
+  earlier_ = total;
+  ++earlier_.restarts;
+  begin_anew();
+}
+
+void CvodeBackend::input_changed(bool keep_history) {
+  if (!keep_history && !fresh_) restart();
+}
+
+int CvodeBackend::evolve(double t_stop) {
+  require(CVodeSetStopTime(memory_.get(), t_stop));
+  return CVode(memory_.get(), t_stop, vector_.get(), &t_, CV_NORMAL);
+}
+
+bool CvodeBackend::advance(double t_stop) {
+  int flag = evolve(t_stop);
+  if ((flag == CV_ERR_FAILURE || flag == CV_CONV_FAILURE) && !fresh_) {
+    // An input can jump so far that no step from the old history passes.
+    restart();
+    flag = evolve(t_stop);
+  }
+  require(flag);
+  fresh_ = false;
+  if (flag != CV_ROOT_RETURN) return false;
+  require(CVodeGetRootInfo(memory_.get(), directions_.data()));
+  restart();
+  return true;
+}
+
+Counts CvodeBackend::counts_since_restart() const {
+  Counts counts;
+  if (fresh_) return counts;
+  CVodeGetNumSteps(memory_.get(), &counts.steps);
+  CVodeGetNumErrTestFails(memory_.get(), &counts.error_test_failures);
+  CVodeGetNumJacEvals(memory_.get(), &counts.jacobian_evaluations);
+  return counts;
+}
+
+Counts CvodeBackend::counts() const {
+  const Counts now = counts_since_restart();
+  Counts sum = earlier_;
+  sum.steps += now.steps;
+  sum.error_test_failures += now.error_test_failures;
+  sum.jacobian_evaluations += now.jacobian_evaluations;
+  return sum;
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cvode_backend(Bridge& bridge, const Options& options) {
+  return std::make_unique<CvodeBackend>(bridge, options);
+}
+
+}  // namespace plumbline::integrate

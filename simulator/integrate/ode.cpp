@@ -1,0 +1,19 @@
+#include <stdexcept>
+
+#include "simulator/integrate/integrator.h"
+
+namespace plumbline::integrate {
+
+void Ode::jacobian(double /*t*/, const double* /*x*/, Eigen::Ref<Eigen::MatrixXd> /*J*/) {
+  throw std::logic_error("Ode::jacobian: has_jacobian() is true, but jacobian() is not overridden");
+}
+
+void Ode::switches(double /*t*/, const double* /*x*/, double* /*g*/) {
+  throw std::logic_error("Ode::switches: switch_count() is positive, but switches() is not overridden");
+}
+
+double Ode::project(double /*t*/, double* /*x*/) {
+  throw std::logic_error("Ode::project: has_projection() is true, but project() is not overridden");
+}
+
+}  // namespace plumbline::integrate

@@ -1,0 +1,30 @@
+// A Plant as the integrator sees it, optionally with its energy accounts as two more states.
+#pragma once
+
+#include "simulator/integrate/integrator.h"
+#include "simulator/model/plant.h"
+
+namespace plumbline::integrate {
+
+class PlantOde : public Ode {
+ public:
+  /// with_energy: the state is followed by the work of the motors and the dissipated energy, J.
+  PlantOde(model::Plant& plant, bool with_energy, bool with_switches);
+
+  int size() const override;
+  void rate(double t, const double* x, double* xdot) override;
+  bool has_jacobian() const override { return true; }
+  void jacobian(double t, const double* x, Eigen::Ref<Eigen::MatrixXd> J) override;
+  int switch_count() const override { return with_switches_ ? plant_.switch_count() : 0; }
+  void switches(double t, const double* x, double* g) override;
+
+  /// The command that holds from now on (command units, one for each motor).
+  double* command() { return command_.data(); }
+
+ private:
+  model::Plant& plant_;
+  bool with_energy_, with_switches_;
+  Eigen::VectorXd command_;
+};
+
+}  // namespace plumbline::integrate

@@ -1,0 +1,61 @@
+#include "simulator/integrate/switch_search.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace plumbline::integrate {
+
+SwitchBracket::SwitchBracket(double lo, Eigen::VectorXd g_lo, double hi, Eigen::VectorXd g_hi)
+    : lo_(lo), hi_(hi), g_lo_(std::move(g_lo)), g_hi_(std::move(g_hi)) {}
+
+bool SwitchBracket::changes(const Eigen::VectorXd& g) const {
+  for (Eigen::Index i = 0; i < g.size(); ++i) {
+    if (changes(i, g[i])) return true;
+  }
+  return false;
+}
+
+double SwitchBracket::guess() const {
+  double first = 1.0;
+  for (Eigen::Index i = 0; i < g_hi_.size(); ++i) {
+    if (!changes(i, g_hi_[i])) continue;
+    const double a = weight_lo_ * g_lo_[i];
+    const double b = weight_hi_ * g_hi_[i];
+    first = std::min(first, a / (a - b));
+  }
+  // Away from the ends, where nothing would be learned.
+  return lo_ + std::clamp(first, 1e-3, 1.0 - 1e-3) * width();
+}
+
+void SwitchBracket::narrow(double t, const Eigen::VectorXd& g) {
+  if (changes(g)) {
+    hi_ = t;
+    g_hi_ = g;
+    weight_hi_ = 1.0;
+    weight_lo_ *= 0.5;
+  } else {
+    lo_ = t;
+    g_lo_ = g;
+    weight_lo_ = 1.0;
+    weight_hi_ *= 0.5;
+  }
+}
+
+void SwitchBracket::directions(std::vector<int>& direction) const {
+  for (Eigen::Index i = 0; i < g_hi_.size(); ++i) {
+    const bool changed = changes(i, g_hi_[i]);
+    direction[static_cast<std::size_t>(i)] = !changed ? 0 : g_lo_[i] < 0.0 ? 1 : -1;
+  }
+}
+
+CubicHermite::CubicHermite(double t0, const Eigen::VectorXd& x0, const Eigen::VectorXd& f0, double t1,
+                           const Eigen::VectorXd& x1, const Eigen::VectorXd& f1)
+    : t0_(t0), h_(t1 - t0), x0_(x0), f0_(f0), x1_(x1), f1_(f1) {}
+
+void CubicHermite::at(double t, Eigen::VectorXd& x) const {
+  const double s = (t - t0_) / h_;
+  const double r = 1.0 - s;
+  x = r * r * (1.0 + 2.0 * s) * x0_ + s * s * (3.0 - 2.0 * s) * x1_ + h_ * s * r * (r * f0_ - s * f1_);
+}
+
+}  // namespace plumbline::integrate

@@ -1,0 +1,64 @@
+#include "simulator/model/kinds.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace plumbline::model {
+
+std::string ratio_unit(bool motor_angular, bool coordinate_angular) {
+  if (motor_angular == coordinate_angular) {
+    return "1";
+  }
+  return motor_angular ? "rad/m" : "m/rad";
+}
+
+std::vector<std::string> joint_names(const Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.type != JointType::fixed) {
+      names.push_back(joint.name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> coordinate_names(const Model& model) {
+  return model.places(effects::Place::coordinate);
+}
+
+std::vector<std::string> motor_names(const Model& model) { return model.places(effects::Place::motor); }
+
+std::vector<std::string> position_names(const Model& model) {
+  std::vector<std::string> names = motor_names(model);
+  const std::vector<std::string> coordinates = coordinate_names(model);
+  names.insert(names.end(), coordinates.begin(), coordinates.end());
+  return names;
+}
+
+const Joint* find_joint(const Skeleton& skeleton, const std::string& name) {
+  const auto found = std::find_if(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& joint) {
+    return joint.name == name && joint.type != JointType::fixed;
+  });
+  return found == skeleton.joints.end() ? nullptr : &*found;
+}
+
+bool is_angular(const Model& model, const std::string& name) {
+  if (const Motor* motor = model.find_motor(name)) {
+    return motor->angular;
+  }
+  if (const Coordinate* coordinate = model.find_coordinate(name)) {
+    return coordinate->angular;
+  }
+  const Joint* joint = find_joint(model.skeleton, name);
+  return joint == nullptr || joint->type == JointType::revolute;
+}
+
+void check_name(const std::string& name, const YamlNode& node) {
+  const auto legal = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-'; };
+  if (!std::all_of(name.begin(), name.end(), legal) ||
+      std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
+    node.refuse("name " + quote(name), "a name of letters, digits, _ . and - that begins with no digit");
+  }
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,33 @@
+// Units and names of rotary and linear places.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+#include "simulator/model/yaml_node.h"
+
+namespace plumbline::model {
+
+inline std::string position_unit(bool angular) { return angular ? "rad" : "m"; }
+inline std::string force_unit(bool angular) { return angular ? "N m" : "N"; }
+inline std::string inertia_unit(bool angular) { return angular ? "kg m^2" : "kg"; }
+/// Motor position per coordinate position.
+std::string ratio_unit(bool motor_angular, bool coordinate_angular);
+
+std::vector<std::string> joint_names(const Skeleton& skeleton);  ///< moving joints
+std::vector<std::string> coordinate_names(const Model& model);
+std::vector<std::string> motor_names(const Model& model);
+/// Coordinates and motors.
+std::vector<std::string> position_names(const Model& model);
+
+/// The moving joint of this name or nullptr.
+const Joint* find_joint(const Skeleton& skeleton, const std::string& name);
+
+/// Whether the motor, coordinate or moving joint of this name turns (unknown names count as turning).
+bool is_angular(const Model& model, const std::string& name);
+
+/// Letters, digits, and _ . - in a name that a model file gives; throws InputError otherwise.
+void check_name(const std::string& name, const YamlNode& node);
+
+}  // namespace plumbline::model

@@ -1,0 +1,37 @@
+// The rigid multibody tree: Simbody behind a door that shows numbers only.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "simulator/model/model.h"
+
+namespace plumbline::model {
+
+/// Mass matrix and bias of the skeleton's joints (one coordinate per moving joint, in skeleton order):
+///   M(q) dv/dt + h(q, v) = Q,   v = dq/dt,
+/// h holds Coriolis, centrifugal and gravity terms. Not thread-safe: one object for each thread.
+class Mechanism {
+ public:
+  explicit Mechanism(const Skeleton& skeleton);
+  ~Mechanism();
+  Mechanism(Mechanism&&) noexcept;
+  Mechanism& operator=(Mechanism&&) noexcept;
+
+  /// Number of moving joints.
+  int size() const;
+  /// Index of a joint's coordinate by its place in skeleton.joints; -1 for fixed joints.
+  int coordinate_of_joint(int joint) const;
+
+  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
+
+  /// Gravity's potential plus kinetic energy of the links, J.
+  double energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumbline::model

@@ -1,0 +1,134 @@
+#include "simulator/model/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/model/kinds.h"
+#include "simulator/model/places.h"
+#include "simulator/trace/error.h"
+
+namespace plumbline::model {
+namespace {
+
+template <typename Item>
+const Item* find_named(const std::vector<Item>& items, const std::string& name) {
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+template <typename Item>
+void append_names(const std::vector<Item>& items, std::vector<std::string>& names) {
+  for (const Item& item : items) {
+    names.push_back(item.name);
+  }
+}
+
+}  // namespace
+
+effects::Values EffectUse::numbers() const {
+  effects::Values numbers;
+  for (const Quantity& quantity : values) {
+    numbers.push_back(quantity.value);
+  }
+  return numbers;
+}
+
+std::string EffectUse::label() const { return law->declaration().name + " at " + at; }
+
+double Sensor::floor() const { return std::sqrt(resolution * resolution / 12.0 + noise * noise); }
+
+const Coordinate* Model::find_coordinate(const std::string& name) const {
+  return find_named(coordinates, name);
+}
+const Motor* Model::find_motor(const std::string& name) const { return find_named(motors, name); }
+const Sensor* Model::find_sensor(const std::string& name) const { return find_named(sensors, name); }
+const Ratio* Model::find_ratio(const std::string& name) const { return find_named(ratios, name); }
+
+int Model::body_index(const std::string& name) const {
+  const Body* body = find_named(skeleton.bodies, name);
+  return body == nullptr ? -1 : static_cast<int>(body - skeleton.bodies.data());
+}
+
+std::vector<std::string> Model::places(effects::Place place) const {
+  std::vector<std::string> names;
+  switch (place) {
+    case effects::Place::coordinate:
+      append_names(coordinates, names);
+      break;
+    case effects::Place::motor:
+      append_names(motors, names);
+      break;
+    case effects::Place::ratio:
+      for (const Ratio& ratio : ratios) {
+        if (find_motor(ratio.motor) != nullptr) {  // a joint tied to coordinates is never released
+          names.push_back(ratio.name);
+        }
+      }
+      break;
+    case effects::Place::body:
+      append_names(skeleton.bodies, names);
+      break;
+    case effects::Place::sensor:
+      append_names(sensors, names);
+      break;
+    case effects::Place::world:
+      names.emplace_back("world");
+      break;
+  }
+  return names;
+}
+
+bool Model::place_is_angular(effects::Place place, const std::string& at) const {
+  switch (place) {
+    case effects::Place::coordinate:
+    case effects::Place::motor:
+      return is_angular(*this, at);
+    case effects::Place::ratio: {
+      // The stretch is motor position minus ratio times coordinate: it has the motor's kind.
+      const Ratio* ratio = find_ratio(at);
+      return ratio == nullptr || is_angular(*this, ratio->motor);
+    }
+    case effects::Place::sensor: {
+      const Sensor* sensor = find_sensor(at);
+      return sensor == nullptr || is_angular(*this, sensor->measures);
+    }
+    case effects::Place::body:
+    case effects::Place::world:
+      break;
+  }
+  return true;
+}
+
+effects::Place Model::resolve(const effects::Law& law, const std::string& at) const {
+  if (const std::optional<effects::Place> place = find_place(*this, law, at)) {
+    return *place;
+  }
+  throw InputError({file, 0, law.declaration().name}, "place \"" + at + "\"", expected_place(*this, law, at));
+}
+
+std::optional<effects::Place> find_place(const Model& model, const effects::Law& law, const std::string& at) {
+  for (const effects::Place place : law.declaration().places) {
+    const std::vector<std::string> names = model.places(place);
+    if (std::find(names.begin(), names.end(), at) != names.end()) {
+      return place;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string expected_place(const Model& model, const effects::Law& law, const std::string& at) {
+  std::string kinds;
+  std::vector<std::string> known;
+  for (const effects::Place place : law.declaration().places) {
+    kinds += (kinds.empty() ? "" : " or ") + effects::to_string(place);
+    for (const std::string& name : model.places(place)) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        known.push_back(name);
+      }
+    }
+  }
+  return "the name of a " + kinds + nearest_names(at, known);
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,144 @@
+// A robot as data: what model.yaml and the skeleton file say, validated. No physics here.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulator/effects/catalogue.h"
+#include "simulator/effects/law.h"
+
+namespace plumbline::model {
+
+/// A number from a robot file, in SI, with its origin.
+struct Quantity {
+  double value = 0.0;
+  double uncertainty = 0.0;  ///< one standard deviation, SI; 0: none stated
+  std::string unit = "1";    ///< as written in the file
+  std::string source;        ///< paper and table, or the reason of an assumption
+  bool assumed = false;
+  int line = 0;
+};
+
+enum class JointType { revolute, prismatic, fixed };
+
+/// One rigid link. Mass properties in the body frame B; inertia about the centre of mass.
+struct Body {
+  std::string name;
+  double mass = 0.0;
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();       // p_BBcm_B
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   // I_BBcm_B
+  double mass_uncertainty = 0.0;                       ///< one standard deviation, kg
+};
+
+/// A joint from parent to child. parent == -1: the world. Child frame J sits on the child; the joint axis is
+/// given in J; X_PJ is J's pose on the parent at zero position, X_CJ on the child.
+struct Joint {
+  std::string name;
+  JointType type = JointType::fixed;
+  int parent = -1;
+  int child = 0;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d X_CJ = Eigen::Isometry3d::Identity();
+};
+
+struct Skeleton {
+  std::string file;
+  std::vector<Body> bodies;  ///< parents before children
+  std::vector<Joint> joints; ///< one for each body (bodies fixed to the world have a fixed joint)
+  Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
+};
+
+/// factor * (joint or motor position)
+struct Term {
+  std::string of;
+  double factor = 1.0;
+};
+
+/// A named scalar: sum of terms over joints. Joints that model.yaml does not name are not places for effects.
+struct Coordinate {
+  std::string name;
+  bool angular = true;
+  std::vector<Term> terms;
+};
+
+struct Motor {
+  std::string name;
+  bool angular = true;
+  Quantity rotor_inertia;            ///< kg m^2 or kg
+  Quantity torque_constant;          ///< torque (or force) per command unit; 1 when the command is a torque
+  Quantity factory_torque_constant;  ///< what the manufacturer states; value 0: not given
+  Quantity torque_limit;             ///< N m or N; value 0: none
+  std::string command_unit = "N m";
+};
+
+/// position(motor) = sum ratio_i * position(coordinate_i); rigid unless an effect releases it.
+/// Named by the coordinate it mainly drives (the first).
+struct Ratio {
+  std::string name;   ///< == to.front().of
+  std::string motor;  ///< motor or joint on the left-hand side
+  std::vector<Term> to;
+  std::vector<Quantity> ratios;
+};
+
+/// A further inertia that turns with a coordinate or motor (pulleys).
+struct Inertia {
+  std::string name;
+  std::string at;
+  Quantity value;
+};
+
+/// A use of an effect: a law, its place and its values.
+struct EffectUse {
+  std::shared_ptr<const effects::Law> law;
+  std::string at;
+  std::vector<Quantity> values;  ///< in the law's parameter order
+  int line = 0;
+
+  effects::Values numbers() const;
+  std::string label() const;  ///< "viscous at mLA"
+};
+
+/// One measured channel.
+struct Sensor {
+  std::string name;
+  std::string measures;    ///< coordinate or motor
+  double resolution = 0;   ///< position per count, SI; 0: continuous
+  double offset = 0;       ///< SI
+  double noise = 0;        ///< standard deviation, SI
+  std::string source;
+  /// Residual that the sensor alone would leave: sqrt(resolution^2/12 + noise^2).
+  double floor() const;
+};
+
+struct Model {
+  std::string file;          ///< the file the user named
+  std::string robot;
+  std::vector<std::string> lineage;  ///< files from the first model to this one (overlays)
+  Skeleton skeleton;
+  std::vector<Coordinate> coordinates;
+  std::vector<Motor> motors;
+  std::vector<Ratio> ratios;
+  std::vector<Inertia> inertias;
+  std::vector<EffectUse> effects;
+  std::vector<Sensor> sensors;
+
+  const Coordinate* find_coordinate(const std::string& name) const;
+  const Motor* find_motor(const std::string& name) const;
+  const Sensor* find_sensor(const std::string& name) const;
+  const Ratio* find_ratio(const std::string& name) const;
+  int body_index(const std::string& name) const;  ///< -1
+  /// Names of the places where a law may sit, in file order.
+  std::vector<std::string> places(effects::Place place) const;
+  /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear coordinates.
+  bool place_is_angular(effects::Place place, const std::string& at) const;
+  /// The place type that `at` has for this law (first of the law's places where the name is known).
+  /// Throws InputError with the nearest names when there is none.
+  effects::Place resolve(const effects::Law& law, const std::string& at) const;
+};
+
+}  // namespace plumbline::model

@@ -1,0 +1,28 @@
+// The sections of a model.yaml, each read into its part of the Model. Every function throws InputError.
+#pragma once
+
+#include "simulator/model/model.h"
+#include "simulator/model/yaml_node.h"
+
+namespace plumbline::model {
+
+/// gravity: magnitude, along the skeleton's own direction (downwards when that has none).
+void read_gravity(const YamlNode& node, Model& model);
+/// masses: uncertainty of the skeleton's masses.
+void read_masses(const YamlNode& node, Model& model);
+/// coordinates: sums of joints, all rotary or all linear.
+void read_coordinates(const YamlNode& node, Model& model);
+void read_motors(const YamlNode& node, Model& model);
+/// ratios: needs coordinates and motors.
+void read_ratios(const YamlNode& node, Model& model);
+void read_inertias(const YamlNode& node, Model& model);
+void read_sensors(const YamlNode& node, Model& model);
+
+/// One name means one thing among joints, coordinates and motors; a coordinate may share the name of the
+/// joint that it is. `root` gives the line.
+void check_names(const YamlNode& root, const Model& model);
+
+/// Refuses ratios that repeat each other, or that together hold a joint or motor still.
+void check_ratios(const YamlNode& root, const Model& model);
+
+}  // namespace plumbline::model

@@ -1,0 +1,199 @@
+// A model ready to be integrated: skeleton, drivetrain and effects as one first-order system.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulator/model/mechanism.h"
+#include "simulator/model/model.h"
+
+namespace plumbline::model {
+
+/// A coordinate or motor held at a value by hand or by a clamp.
+struct Lock {
+  std::string at;
+  double value = 0.0;
+};
+
+/// A parameter of one of the model's effects.
+struct ParameterId {
+  int effect = 0;     ///< index in Model::effects
+  int parameter = 0;  ///< index in the law's declaration
+};
+
+/// Energy of a state and where power goes.
+struct Energetics {
+  double stored = 0.0;      ///< kinetic, gravity and springs, J
+  double input = 0.0;       ///< power of the motors' delivered torques, W
+  double dissipated = 0.0;  ///< by all effects, W
+};
+
+/// The state is x = [z, dz/dt, hidden states], z the independent positions that the rigid ratios and locks
+/// leave: q = S z + q0 for the full coordinates q (joints, then motors). Ratios are linear with constant
+/// coefficients, so this elimination is exact and nothing drifts:
+///   (S' M S) d2z/dt2 = S' (Q - h).
+/// Motors turn relative to their mount; the mount's own motion adds nothing to the rotor's energy (exact for
+/// a fixed mount). Not thread-safe: one object for each thread.
+class Plant {
+ public:
+  /// Throws InputError when constraints contradict each other or the mass matrix is singular.
+  Plant(const Model& model, const std::vector<Lock>& locks);
+
+  const Model& model() const { return model_; }
+  int positions() const { return nz_; }
+  int states() const { return nx_; }
+  int motors() const { return static_cast<int>(model_.motors.size()); }
+  int sensors() const { return static_cast<int>(model_.sensors.size()); }
+  std::vector<std::string> state_names() const;
+
+  /// Time derivative of the state for the commands that hold now (delayed already, in command units).
+  void rate(const double* x, const double* command, double* xdot);
+
+  /// What the sensors would read without quantisation and noise, SI.
+  void outputs(const double* x, double* y) const;
+  /// d(true position of sensor)/dz, sensors x positions.
+  const Eigen::MatrixXd& output_map() const { return output_map_; }
+  /// True position of each sensor at z = 0.
+  const Eigen::VectorXd& output_offset() const { return output_offset_; }
+  /// Rows that are zero when no released ratio is stretched (for an unobserved start).
+  const Eigen::MatrixXd& stretch_map() const { return stretch_map_; }
+
+  /// Pure delay of a motor's command, s.
+  double delay(int motor) const;
+  double torque_gain(int motor) const;  ///< torque per command unit
+
+  /// Hidden states in equilibrium with the commands, written behind the positions and velocities of x.
+  void settle(const double* command, double* x) const;
+
+  /// Switching functions of all force laws.
+  int switch_count() const { return switch_count_; }
+  void switches(const double* x, double* g) const;
+
+  Energetics energetics(const double* x, const double* command);
+
+  /// Static equilibrium near z (velocities zero) under constant commands, by Newton's method.
+  /// Throws std::runtime_error when none is found.
+  Eigen::VectorXd equilibrium(const Eigen::VectorXd& z, const double* command);
+
+  /// Full coordinate value of a named joint, coordinate or motor.
+  double position_of(const std::string& name, const double* x) const;
+  double velocity_of(const std::string& name, const double* x) const;
+  /// Generalised inertia felt along a named place at the last evaluated position.
+  double inertia_of(const std::string& name);
+
+  /// Position and velocity as a place's law sees them (stretch for a ratio).
+  effects::Motion motion_at(effects::Place place, const std::string& at, const double* x) const;
+
+  /// The parameter's value now; set_value changes it in place. Setting must not make an effect null or not
+  /// null when it carries states or releases a ratio (build a new Plant for that).
+  double value(ParameterId id) const;
+  void set_value(ParameterId id, double value);
+
+  /// Linearisation of rate() at (x, command): A = d(rate)/dx (states x states), B = d(rate)/d(parameters).
+  /// Rigid-body parts of A and of structural parameters are refreshed only when `refresh` is true: they vary
+  /// slowly against the sample period. command_slope[m]: d(command)/d(delay) of motor m.
+  void tangent(const double* x, const double* command, const double* command_slope,
+               const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps, bool refresh,
+               Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+  /// d(outputs)/d(parameters) at x, sensors x parameters.
+  void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
+                      const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
+  /// d(outputs)/dz with the sensors' own scale effects, sensors x positions.
+  void output_jacobian(const double* x, Eigen::MatrixXd& C);
+
+  /// Approximate d(rate)/dx for implicit integrators: mass matrix and the effects' own slopes, no further
+  /// forward dynamics.
+  void stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
+
+ private:
+  // A linear functional of the full coordinates, seen from the independent ones.
+  struct Line {
+    Eigen::VectorXd full;
+    Eigen::VectorXd reduced;
+    double offset = 0.0;
+  };
+  struct ForceSlot {
+    const effects::ForceLaw* law = nullptr;
+    int effect = 0;
+    int state = -1;  // index in x of its first hidden state
+    int motor = -1;  // motor whose torque is the load
+    bool active = true;  // false at null values: costs nothing
+    Line line;
+  };
+  struct ActuatorSlot {
+    const effects::ActuatorLaw* law = nullptr;
+    int effect = 0;
+    int state = -1;
+  };
+  struct StructureSlot {
+    const effects::StructureLaw* law = nullptr;
+    int effect = 0;
+  };
+  struct SensorSlot {
+    const effects::SensorLaw* law = nullptr;
+    int effect = 0;
+  };
+  struct Structure {
+    std::unique_ptr<Mechanism> mechanism;
+    Eigen::VectorXd extra_inertia;  // on joints and motors, full coordinates, diagonal
+    Eigen::MatrixXd extra_reduced;  // S' (diag + pulleys) S
+  };
+
+  Eigen::VectorXd full_direction(const std::string& name) const;
+  Eigen::VectorXd stretch_direction(const Ratio& ratio) const;
+  Line line_of(const Eigen::VectorXd& full) const;
+  bool is_released(const Ratio& ratio) const;
+  void reduce(const std::vector<Lock>& locks);
+  void place_effects();
+  void place_force(const effects::ForceLaw& law, int effect, int& next_state);
+  void place_sensors();
+  Structure make_structure() const;
+  void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
+  void check_mass_matrix();
+
+  effects::Motion motion(const ForceSlot& slot, const double* x) const;
+  const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
+  void deliver_torques(const double* x, const double* command, double* xdot);
+  void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
+  void add_forces(const double* x, Eigen::VectorXd& Q, double* xdot);
+  double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
+  void rigid_tangent(const double* x, const double* command);
+  void effect_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
+  void parameter_tangent(const double* x, const double* command, const double* command_slope, ParameterId id,
+                         double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
+  void structure_tangent(const double* x, ParameterId id, double step, bool refresh,
+                         Eigen::Ref<Eigen::VectorXd> column);
+
+  Model model_;
+  std::vector<effects::Values> values_;
+  int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
+  Eigen::MatrixXd S_, S_tree_;
+  Eigen::VectorXd q0_;
+  std::vector<ForceSlot> forces_;
+  std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
+  std::vector<StructureSlot> structures_;
+  std::vector<std::vector<SensorSlot>> sensor_effects_;
+  std::vector<Line> motor_lines_, sensor_lines_;
+  Eigen::MatrixXd output_map_, stretch_map_;
+  Eigen::VectorXd output_offset_;
+  Structure structure_;
+
+  // Work space of the last evaluation.
+  Eigen::VectorXd q_, v_, h_tree_, h_, Q_, torque_, acceleration_;
+  Eigen::MatrixXd M_tree_, M_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd rigid_A_;
+  struct Variant {
+    ParameterId id;
+    Structure structure;
+    Eigen::MatrixXd dM;
+    Eigen::VectorXd dh;
+  };
+  std::vector<Variant> variants_;  // perturbed structures, one for each structural parameter asked for
+};
+
+}  // namespace plumbline::model

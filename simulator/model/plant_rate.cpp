@@ -1,0 +1,194 @@
+// The equations of motion of a Plant.
+#include <cmath>
+#include <stdexcept>
+
+#include "simulator/model/plant.h"
+
+namespace plumbline::model {
+
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
+  double position = slot.line.offset;
+  double velocity = 0.0;
+  for (int i = 0; i < nz_; ++i) {
+    position += slot.line.reduced[i] * x[i];
+    velocity += slot.line.reduced[i] * x[nz_ + i];
+  }
+  return {position, velocity, slot.motor < 0 ? 0.0 : torque_[slot.motor]};
+}
+
+double Plant::torque_gain(int motor) const {
+  const Motor& m = model_.motors[static_cast<std::size_t>(motor)];
+  return m.torque_constant.value > 0.0 && m.command_unit != "N m" && m.command_unit != "N"
+             ? m.torque_constant.value
+             : 1.0;
+}
+
+double Plant::delay(int motor) const {
+  double sum = 0.0;
+  for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(motor)]) {
+    sum += slot.law->delay(values(slot.effect));
+  }
+  return sum;
+}
+
+// From the command (torque units) through all actuator effects to the delivered torque. State rates are
+// written when xdot is given.
+double Plant::actuator_chain(int motor, const double* x, double commanded, double* xdot) const {
+  double torque = commanded;
+  for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(motor)]) {
+    const double* p = values(slot.effect);
+    if (slot.state >= 0 && xdot != nullptr) {
+      slot.law->state_rate(torque, x + slot.state, p, xdot + slot.state);
+    }
+    if (slot.state >= 0 || slot.law->state_count() == 0) {
+      torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, p);
+    }
+  }
+  return torque;
+}
+
+void Plant::deliver_torques(const double* x, const double* command, double* xdot) {
+  torque_.resize(motors());
+  for (int m = 0; m < motors(); ++m) {
+    torque_[m] = actuator_chain(m, x, torque_gain(m) * command[m], xdot);
+  }
+}
+
+void Plant::evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h) {
+  const Vector z(x, nz_);
+  const Vector w(x + nz_, nz_);
+  q_.noalias() = S_tree_ * z;
+  q_ += q0_.head(n_tree_);
+  v_.noalias() = S_tree_ * w;
+  structure.mechanism->evaluate(q_, v_, M_tree_, h_tree_);
+  M.noalias() = S_tree_.transpose() * M_tree_.lazyProduct(S_tree_).eval();
+  M += structure.extra_reduced;
+  h.noalias() = S_tree_.transpose() * h_tree_;
+}
+
+void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
+  for (int m = 0; m < motors(); ++m) {
+    Q += motor_lines_[static_cast<std::size_t>(m)].reduced * torque_[m];
+  }
+  for (const ForceSlot& slot : forces_) {
+    if (!slot.active) {
+      continue;
+    }
+    const effects::Motion at = motion(slot, x);
+    const double* state = slot.state >= 0 ? x + slot.state : nullptr;
+    const double* p = values(slot.effect);
+    Q += slot.line.reduced * slot.law->force(at, state, p);
+    if (slot.state >= 0 && xdot != nullptr) {
+      slot.law->state_rate(at, state, p, xdot + slot.state);
+    }
+  }
+}
+
+void Plant::rate(const double* x, const double* command, double* xdot) {
+  deliver_torques(x, command, xdot);
+  evaluate_rigid(x, structure_, M_, h_);
+  factor_.compute(M_);
+  Q_ = -h_;
+  add_forces(x, Q_, xdot);
+  acceleration_ = factor_.solve(Q_);
+  for (int i = 0; i < nz_; ++i) {
+    xdot[i] = x[nz_ + i];
+    xdot[nz_ + i] = acceleration_[i];
+  }
+}
+
+void Plant::outputs(const double* x, double* y) const {
+  for (int s = 0; s < sensors(); ++s) {
+    double reading = output_offset_[s];
+    for (int i = 0; i < nz_; ++i) {
+      reading += output_map_(s, i) * x[i];
+    }
+    for (const SensorSlot& slot : sensor_effects_[static_cast<std::size_t>(s)]) {
+      reading = slot.law->reading(reading, values(slot.effect));
+    }
+    y[s] = reading;
+  }
+}
+
+void Plant::settle(const double* command, double* x) const {
+  for (const ForceSlot& slot : forces_) {
+    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
+      x[slot.state + k] = 0.0;
+    }
+  }
+  for (int m = 0; m < motors(); ++m) {
+    double torque = torque_gain(m) * command[m];
+    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+      if (slot.state >= 0) {
+        slot.law->settle(torque, values(slot.effect), x + slot.state);
+      }
+      if (slot.state >= 0 || slot.law->state_count() == 0) {
+        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+      }
+    }
+  }
+}
+
+void Plant::switches(const double* x, double* g) const {
+  std::vector<double> all;
+  for (const ForceSlot& slot : forces_) {
+    slot.law->switches(motion(slot, x), values(slot.effect), all);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    g[i] = all[i];
+  }
+}
+
+Energetics Plant::energetics(const double* x, const double* command) {
+  deliver_torques(x, command, nullptr);
+  Energetics e;
+  const Vector z(x, nz_);
+  const Vector w(x + nz_, nz_);
+  const Eigen::VectorXd q = S_tree_ * z + q0_.head(n_tree_);
+  const Eigen::VectorXd v = S_tree_ * w;
+  e.stored = structure_.mechanism->energy(q, v) + 0.5 * w.dot(structure_.extra_reduced * w);
+  for (int m = 0; m < motors(); ++m) {
+    e.input += torque_[m] * motor_lines_[static_cast<std::size_t>(m)].reduced.dot(w);
+  }
+  for (const ForceSlot& slot : forces_) {
+    if (!slot.active) {
+      continue;
+    }
+    const effects::Motion at = motion(slot, x);
+    const double* state = slot.state >= 0 ? x + slot.state : nullptr;
+    e.stored += slot.law->stored_energy(at, state, values(slot.effect));
+    e.dissipated += slot.law->dissipated_power(at, state, values(slot.effect));
+  }
+  return e;
+}
+
+Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& start, const double* command) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(nx_);
+  Eigen::VectorXd xdot(nx_);
+  x.head(nz_) = start;
+  settle(command, x.data());
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    rate(x.data(), command, xdot.data());
+    const Eigen::VectorXd force = M_ * xdot.segment(nz_, nz_);
+    const double scale = 1e-9 * (h_.cwiseAbs().maxCoeff() + torque_.cwiseAbs().sum() + 1e-6);
+    if (force.cwiseAbs().maxCoeff() < scale) {
+      return x.head(nz_);
+    }
+    Eigen::MatrixXd K(nz_, nz_);
+    for (int i = 0; i < nz_; ++i) {
+      const double step = 1e-6;
+      Eigen::VectorXd moved = x;
+      moved[i] += step;
+      rate(moved.data(), command, xdot.data());
+      K.col(i) = (M_ * xdot.segment(nz_, nz_) - force) / step;
+    }
+    Eigen::VectorXd move = -K.colPivHouseholderQr().solve(force);
+    const double largest = move.cwiseAbs().maxCoeff();
+    x.head(nz_) += largest > 0.3 ? move * (0.3 / largest) : move;
+  }
+  throw std::runtime_error("no static equilibrium found near the start position");
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,275 @@
+// Linearisation of a Plant: what a window's sensitivities are built from.
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/model/plant.h"
+
+namespace plumbline::model {
+namespace {
+
+constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
+constexpr double kVelocityStep = 1e-4;
+
+}  // namespace
+
+// d(M^-1 (Q - h))/d(z, w) with effects and torques held: by differences, they cost one evaluation each.
+void Plant::rigid_tangent(const double* x, const double* command) {
+  rigid_A_ = Eigen::MatrixXd::Zero(nz_, 2 * nz_);
+  deliver_torques(x, command, nullptr);
+  Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
+  add_forces(x, Q, nullptr);
+  evaluate_rigid(x, structure_, M_, h_);
+  factor_.compute(M_);
+  const Eigen::VectorXd a0 = factor_.solve(Q - h_);
+  Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  Eigen::MatrixXd M;
+  Eigen::VectorXd h;
+  for (int i = 0; i < 2 * nz_; ++i) {
+    const double step = i < nz_ ? kPositionStep : kVelocityStep;
+    moved[i] = x[i] + step;
+    evaluate_rigid(moved.data(), structure_, M, h);
+    rigid_A_.col(i) = factor_.solve(h_ - h - (M - M_) * a0) / step;
+    moved[i] = x[i];
+  }
+}
+
+// Adds the effects' own slopes: scalar differences of each law, no dynamics.
+void Plant::effect_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+  for (const ForceSlot& slot : forces_) {
+    if (!slot.active) {
+      continue;
+    }
+    const double* p = values(slot.effect);
+    const effects::Motion at = motion(slot, x);
+    const Eigen::VectorXd push = factor_.solve(slot.line.reduced);
+    const int states = slot.law->state_count();
+    const double* state = slot.state >= 0 ? x + slot.state : nullptr;
+    Eigen::VectorXd s = Eigen::VectorXd::Zero(std::max(states, 1));
+    Eigen::VectorXd up = s;
+    Eigen::VectorXd down = s;
+    for (int k = 0; k < states; ++k) {
+      s[k] = state[k];
+    }
+    const auto add = [&](Eigen::Ref<Eigen::MatrixXd> block, const effects::Motion& plus,
+                         const effects::Motion& minus, double width) {
+      const double slope = (slot.law->force(plus, s.data(), p) - slot.law->force(minus, s.data(), p)) / width;
+      block.middleRows(nz_, nz_) += push * (slope * slot.line.reduced.transpose());
+      if (states > 0) {
+        slot.law->state_rate(plus, s.data(), p, up.data());
+        slot.law->state_rate(minus, s.data(), p, down.data());
+        block.middleRows(slot.state, states) +=
+            ((up - down) / width).head(states) * slot.line.reduced.transpose();
+      }
+    };
+    const double dq = 1e-6 * (1.0 + std::abs(at.position));
+    const double dv = 1e-6 * (1.0 + std::abs(at.velocity));
+    add(A.leftCols(nz_), {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load},
+        2.0 * dq);
+    add(A.middleCols(nz_, nz_), {at.position, at.velocity + dv, at.load},
+        {at.position, at.velocity - dv, at.load}, 2.0 * dv);
+    for (int k = 0; k < states; ++k) {
+      const double ds = 1e-7 * (1.0 + std::abs(s[k]));
+      const double middle = s[k];
+      s[k] = middle + ds;
+      const double f_up = slot.law->force(at, s.data(), p);
+      slot.law->state_rate(at, s.data(), p, up.data());
+      s[k] = middle - ds;
+      const double f_down = slot.law->force(at, s.data(), p);
+      slot.law->state_rate(at, s.data(), p, down.data());
+      s[k] = middle;
+      A.col(slot.state + k).segment(nz_, nz_) += push * ((f_up - f_down) / (2.0 * ds));
+      A.col(slot.state + k).segment(slot.state, states) += ((up - down) / (2.0 * ds)).head(states);
+    }
+  }
+}
+
+// Hidden states of the actuators act through the delivered torque.
+void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+  Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
+  Eigen::VectorXd down = Eigen::VectorXd::Zero(nx_);
+  for (int m = 0; m < motors(); ++m) {
+    const double commanded = torque_gain(m) * command[m];
+    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+      for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
+        const int column = slot.state + k;
+        const double step = 1e-6 * (1.0 + std::abs(x[column]));
+        up.setZero();
+        down.setZero();
+        moved[column] = x[column] + step;
+        const double plus = actuator_chain(m, moved.data(), commanded, up.data());
+        moved[column] = x[column] - step;
+        const double minus = actuator_chain(m, moved.data(), commanded, down.data());
+        moved[column] = x[column];
+        A.col(column) += (up - down) / (2.0 * step);
+        A.col(column).segment(nz_, nz_) += factor_.solve(motor_lines_[static_cast<std::size_t>(m)].reduced) *
+                                           ((plus - minus) / (2.0 * step));
+      }
+    }
+  }
+}
+
+void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+  deliver_torques(x, command, nullptr);
+  evaluate_rigid(x, structure_, M_, h_);
+  factor_.compute(M_);
+  A.setZero();
+  A.block(0, nz_, nz_, nz_).setIdentity();
+  effect_tangent(x, A);
+  actuator_tangent(x, command, A);
+}
+
+void Plant::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
+                              Eigen::Ref<Eigen::VectorXd> column) {
+  auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
+    return variant.id.effect == id.effect && variant.id.parameter == id.parameter;
+  });
+  if (found == variants_.end()) {
+    const double here = value(id);
+    Variant variant;
+    variant.id = id;
+    double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
+    stored = here + step;
+    variant.structure = make_structure();
+    stored = here;
+    variants_.push_back(std::move(variant));
+    found = variants_.end() - 1;
+    refresh = true;
+  }
+  if (refresh || found->dM.size() == 0) {
+    Eigen::MatrixXd M;
+    Eigen::VectorXd h;
+    evaluate_rigid(x, found->structure, M, h);
+    found->dM = (M - M_) / step;
+    found->dh = (h - h_) / step;
+  }
+  column.segment(nz_, nz_) = -factor_.solve(found->dM * acceleration_ + found->dh);
+}
+
+void Plant::parameter_tangent(const double* x, const double* command, const double* command_slope,
+                              ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column) {
+  column.setZero();
+  effects::Values p = values_[static_cast<std::size_t>(id.effect)];
+  const double* p0 = values(id.effect);
+  p[static_cast<std::size_t>(id.parameter)] += step;
+  for (const ForceSlot& slot : forces_) {
+    if (slot.effect != id.effect || (slot.law->state_count() > 0 && slot.state < 0)) {
+      continue;
+    }
+    const effects::Motion at = motion(slot, x);
+    const double* s = slot.state >= 0 ? x + slot.state : nullptr;
+    const double before = slot.active ? slot.law->force(at, s, p0) : 0.0;
+    column.segment(nz_, nz_) =
+        factor_.solve(slot.line.reduced) * ((slot.law->force(at, s, p.data()) - before) / step);
+    if (slot.state >= 0) {
+      const int states = slot.law->state_count();
+      Eigen::VectorXd up(states);
+      Eigen::VectorXd now(states);
+      slot.law->state_rate(at, s, p.data(), up.data());
+      slot.law->state_rate(at, s, p0, now.data());
+      column.segment(slot.state, states) = (up - now) / step;
+    }
+    return;
+  }
+  for (int m = 0; m < motors(); ++m) {
+    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+      if (slot.effect != id.effect) {
+        continue;
+      }
+      const double here = torque_gain(m) * command[m];
+      Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
+      Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
+      const double before = actuator_chain(m, x, here, now.data());
+      const double delay_change = slot.law->delay(p.data()) - slot.law->delay(p0);
+      const double moved = here + torque_gain(m) * command_slope[m] * delay_change;
+      std::swap(values_[static_cast<std::size_t>(id.effect)], p);
+      const double after = actuator_chain(m, x, moved, up.data());
+      std::swap(values_[static_cast<std::size_t>(id.effect)], p);
+      column = (up - now) / step;
+      column.segment(nz_, nz_) +=
+          factor_.solve(motor_lines_[static_cast<std::size_t>(m)].reduced) * ((after - before) / step);
+      return;
+    }
+  }
+  for (const StructureSlot& slot : structures_) {
+    if (slot.effect == id.effect) {
+      structure_tangent(x, id, step, refresh, column);
+      return;
+    }
+  }
+}
+
+void Plant::tangent(const double* x, const double* command, const double* command_slope,
+                    const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps, bool refresh,
+                    Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+  if (refresh || rigid_A_.cols() != 2 * nz_) {
+    rigid_tangent(x, command);
+  }
+  Eigen::VectorXd xdot(nx_);
+  rate(x, command, xdot.data());  // leaves M, h, torques and acceleration at x
+  A.setZero(nx_, nx_);
+  A.block(0, nz_, nz_, nz_).setIdentity();
+  A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
+  effect_tangent(x, A);
+  actuator_tangent(x, command, A);
+  B.resize(nx_, static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    parameter_tangent(x, command, command_slope, parameters[k], steps[column], refresh, B.col(column));
+  }
+}
+
+void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
+  C = output_map_;
+  Eigen::VectorXd y(sensors());
+  Eigen::VectorXd actual = output_map_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + output_offset_;
+  for (int s = 0; s < sensors(); ++s) {
+    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
+    if (chain.empty()) {
+      continue;
+    }
+    double plus = actual[s] + 1e-6;
+    double minus = actual[s] - 1e-6;
+    for (const SensorSlot& slot : chain) {
+      plus = slot.law->reading(plus, values(slot.effect));
+      minus = slot.law->reading(minus, values(slot.effect));
+    }
+    C.row(s) *= (plus - minus) / 2e-6;
+  }
+}
+
+void Plant::output_tangent(const double* x, const std::vector<ParameterId>& parameters,
+                           const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
+  D.setZero(sensors(), static_cast<Eigen::Index>(parameters.size()));
+  for (int s = 0; s < sensors(); ++s) {
+    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
+    if (chain.empty()) {
+      continue;
+    }
+    const double actual =
+        output_offset_[s] + output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const bool here = std::any_of(chain.begin(), chain.end(), [&](const SensorSlot& slot) {
+        return slot.effect == parameters[k].effect;
+      });
+      if (!here) {
+        continue;
+      }
+      const auto read = [&](double change) {
+        double reading = actual;
+        for (const SensorSlot& slot : chain) {
+          effects::Values p = values_[static_cast<std::size_t>(slot.effect)];
+          if (slot.effect == parameters[k].effect) {
+            p[static_cast<std::size_t>(parameters[k].parameter)] += change;
+          }
+          reading = slot.law->reading(reading, p.data());
+        }
+        return reading;
+      };
+      D(s, column) = (read(steps[column]) - read(0.0)) / steps[column];
+    }
+  }
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,127 @@
+#include "simulator/model/robot_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "simulator/model/effect_list.h"
+#include "simulator/model/model_sections.h"
+#include "simulator/model/robot_reader.h"
+
+namespace plumbline::model {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFormat = "model/1";
+
+std::string beside(const std::string& file, const std::string& relative) {
+  return (fs::path(file).parent_path() / relative).lexically_normal().string();
+}
+
+void check_format(const YamlNode& root) {
+  const YamlNode format = root.at("plumbline");
+  if (format.text() != kFormat) {
+    format.refuse(std::string("`plumbline: ") + kFormat + "`");
+  }
+}
+
+/// The documents from the named file down to the model without a base; refuses a circle.
+std::vector<YamlNode> read_chain(const std::string& path) {
+  std::vector<YamlNode> chain{YamlNode::load(path)};
+  std::vector<fs::path> seen{fs::weakly_canonical(path)};
+  check_format(chain.back());
+  while (const auto base = chain.back().find("base")) {
+    const std::string file = beside(chain.back().file(), base->text());
+    std::error_code missing;
+    if (!fs::is_regular_file(file, missing)) {
+      base->refuse(quote(base->text()) + ", where there is no file",
+                   "the path of a model file, relative to this one");
+    }
+    const fs::path canonical = fs::weakly_canonical(file);
+    if (std::find(seen.begin(), seen.end(), canonical) != seen.end()) {
+      base->refuse(quote(base->text()) + ", which leads back to itself", "a chain of bases that ends");
+    }
+    seen.push_back(canonical);
+    chain.push_back(YamlNode::load(file));
+    check_format(chain.back());
+  }
+  return chain;
+}
+
+std::string skeleton_path(const YamlNode& node) {
+  const std::string extension = fs::path(node.text()).extension().string();
+  if (extension != ".sdf" && extension != ".urdf") {
+    node.refuse("a file name that ends in .sdf or .urdf");
+  }
+  const std::string path = beside(node.file(), node.text());
+  std::error_code missing;
+  if (!fs::is_regular_file(path, missing)) {
+    node.refuse(quote(node.text()) + ", where there is no file",
+                "the path of a .sdf or .urdf, relative to this file");
+  }
+  return path;
+}
+
+void read_section(const YamlNode& root, const char* key, void (*read)(const YamlNode&, Model&),
+                  Model& model) {
+  if (const auto section = root.find(key)) {
+    read(*section, model);
+  }
+}
+
+Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const SkeletonReader& skeletons) {
+  root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "ratios",
+                   "inertias", "effects", "sensors"});
+  Model model;
+  model.file = root.file();
+  model.robot = root.at("robot").text();
+  model.skeleton = skeletons(skeleton_path(root.at("skeleton")));
+  read_section(root, "gravity", read_gravity, model);
+  read_section(root, "masses", read_masses, model);
+  read_section(root, "coordinates", read_coordinates, model);
+  read_section(root, "motors", read_motors, model);
+  check_names(root, model);
+  read_section(root, "ratios", read_ratios, model);
+  check_ratios(root, model);
+  read_section(root, "inertias", read_inertias, model);
+  read_section(root, "sensors", read_sensors, model);
+  if (const auto effects = root.find("effects")) {
+    read_effects(*effects, catalogue, model);
+  }
+  return model;
+}
+
+}  // namespace
+
+void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue, Model& model) {
+  overlay.allow_keys({"plumbline", "base", "note", "effects", "values"});
+  if (const auto note = overlay.find("note")) {
+    note->text();
+  }
+  if (const auto effects = overlay.find("effects")) {
+    read_effects(*effects, catalogue, model);
+  }
+  if (const auto values = overlay.find("values")) {
+    replace_values(*values, model);
+  }
+}
+
+Model read_model(const std::string& path, const effects::Catalogue& catalogue,
+                 const SkeletonReader& skeletons) {
+  const std::vector<YamlNode> chain = read_chain(path);
+  Model model = read_base(chain.back(), catalogue, skeletons);
+  for (auto document = chain.rbegin(); document != chain.rend(); ++document) {
+    if (document != chain.rbegin()) {
+      apply_overlay(*document, catalogue, model);
+    }
+    model.lineage.push_back(document->file());
+  }
+  model.file = path;
+  return model;
+}
+
+Model read_model(const std::string& path, const effects::Catalogue& catalogue) {
+  return read_model(path, catalogue, read_skeleton);
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,302 @@
+// SDFormat and URDF to a Skeleton, through libsdformat.
+#include <console_bridge/console.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <sdf/sdf.hh>
+
+#include "simulator/model/robot_file.h"
+#include "simulator/model/skeleton_xml.h"
+
+namespace plumbline::model {
+namespace {
+
+constexpr const char* kExpected = "a skeleton that libsdformat can read";
+
+/// libsdformat and the URDF parser below it write to the console and keep global state.
+std::mutex& quiet_sdformat() {
+  static std::mutex mutex;
+  static const bool silenced = [] {
+    sdf::Console::Instance()->SetQuiet(true);
+    console_bridge::noOutputHandler();
+    return true;
+  }();
+  static_cast<void>(silenced);
+  return mutex;
+}
+
+void refuse_errors(const sdf::Errors& errors, const SkeletonXml& xml) {
+  if (errors.empty()) {
+    return;
+  }
+  const sdf::Error& first = errors.front();
+  XmlPart part = xml.part_in(first.Message());
+  if (part.line == 0 && !xml.is_urdf() && first.LineNumber()) {
+    part.line = *first.LineNumber();
+  }
+  xml.refuse(part, first.Message(), kExpected);
+}
+
+Eigen::Vector3d to_eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+Eigen::Isometry3d to_eigen(const ignition::math::Pose3d& pose) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  const ignition::math::Quaterniond& q = pose.Rot();
+  X.linear() = Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized().toRotationMatrix();
+  X.translation() = to_eigen(pose.Pos());
+  return X;
+}
+
+Eigen::Matrix3d to_eigen(const ignition::math::Matrix3d& m) {
+  Eigen::Matrix3d M;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      M(i, j) = m(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+    }
+  }
+  return 0.5 * (M + M.transpose());
+}
+
+/// A link or joint before the tree is put in order; poses in the model's frame.
+struct LooseLink {
+  Body body;
+  Eigen::Isometry3d X_ML = Eigen::Isometry3d::Identity();
+};
+struct LooseJoint {
+  Joint joint;
+  std::string parent, child;  ///< parent "world": the world
+  Eigen::Isometry3d X_MJ = Eigen::Isometry3d::Identity();
+};
+
+/// Puts links and joints into tree order and hangs the tree on the world.
+class TreeBuilder {
+ public:
+  TreeBuilder(const SkeletonXml& xml, std::vector<LooseLink> links, std::vector<LooseJoint> joints,
+              const Eigen::Isometry3d& X_WM)
+      : xml_(xml), links_(std::move(links)), joints_(std::move(joints)), X_WM_(X_WM) {
+    inboard_.assign(links_.size(), -1);
+    index_.assign(links_.size(), -1);
+  }
+
+  void build(Skeleton& skeleton) {
+    find_inboard_joints();
+    hang_on_world(skeleton);
+    while (add_children(skeleton)) {
+    }
+    refuse_loose_links();
+    refuse_moving_massless(skeleton);
+  }
+
+ private:
+  int link_index(const std::string& name) const {
+    const auto found = std::find_if(links_.begin(), links_.end(),
+                                    [&](const LooseLink& link) { return link.body.name == name; });
+    return found == links_.end() ? -1 : static_cast<int>(found - links_.begin());
+  }
+
+  void find_inboard_joints() {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const int child = link_index(joints_[j].child);
+      const std::string& name = joints_[j].joint.name;
+      if (child < 0 || (joints_[j].parent != "world" && link_index(joints_[j].parent) < 0)) {
+        xml_.refuse({name, xml_.line_of_joint(name)},
+                    "a joint between " + joints_[j].parent + " and " + joints_[j].child,
+                    "a joint between two links of the model, or the world and a link");
+      }
+      int& inboard = inboard_[static_cast<std::size_t>(child)];
+      if (inboard >= 0) {
+        xml_.refuse({name, xml_.line_of_joint(name)},
+                    "link " + joints_[j].child + " as the child of a second joint (a closed loop)",
+                    "a tree: each link the child of one joint");
+      }
+      inboard = static_cast<int>(j);
+    }
+  }
+
+  /// Without any joint to the world, a single root link is fixed to it.
+  void hang_on_world(Skeleton& skeleton) {
+    const auto to_world = [](const LooseJoint& joint) { return joint.parent == "world"; };
+    if (std::any_of(joints_.begin(), joints_.end(), to_world)) {
+      return;
+    }
+    const auto roots = std::count(inboard_.begin(), inboard_.end(), -1);
+    if (roots != 1) {
+      xml_.refuse({"", 0}, std::to_string(roots) + " links that are the child of no joint",
+                  "one root link, or joints to the world");
+    }
+    const auto root =
+        static_cast<std::size_t>(std::find(inboard_.begin(), inboard_.end(), -1) - inboard_.begin());
+    Joint joint;
+    joint.name = "world_to_" + links_[root].body.name;
+    while (xml_.line_of_joint(joint.name) != 0) {
+      joint.name += "_";
+    }
+    joint.X_PJ = X_WM_ * links_[root].X_ML;
+    append(skeleton, root, joint);
+  }
+
+  void append(Skeleton& skeleton, std::size_t link, Joint joint) {
+    index_[link] = static_cast<int>(skeleton.bodies.size());
+    joint.child = index_[link];
+    skeleton.bodies.push_back(links_[link].body);
+    skeleton.joints.push_back(std::move(joint));
+  }
+
+  /// Appends the links whose parents are in; true when there was one.
+  bool add_children(Skeleton& skeleton) {
+    bool added = false;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (index_[i] >= 0 || inboard_[i] < 0) {
+        continue;
+      }
+      const LooseJoint& loose = joints_[static_cast<std::size_t>(inboard_[i])];
+      const bool on_world = loose.parent == "world";
+      const auto parent = static_cast<std::size_t>(on_world ? 0 : link_index(loose.parent));
+      if (!on_world && index_[parent] < 0) {
+        continue;
+      }
+      Joint joint = loose.joint;
+      joint.parent = on_world ? -1 : index_[parent];
+      joint.X_PJ = on_world ? X_WM_ * loose.X_MJ : links_[parent].X_ML.inverse() * loose.X_MJ;
+      joint.X_CJ = links_[i].X_ML.inverse() * loose.X_MJ;
+      append(skeleton, i, std::move(joint));
+      added = true;
+    }
+    return added;
+  }
+
+  void refuse_loose_links() const {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (index_[i] < 0) {
+        const std::string& name = links_[i].body.name;
+        xml_.refuse({name, xml_.line_of_link(name)}, "a link that no chain of joints connects to the world",
+                    "a joint that does (floating bases are not supported yet)");
+      }
+    }
+  }
+
+  /// A joint that moves must move mass: that of its own link or of links fixed to it.
+  void refuse_moving_massless(const Skeleton& skeleton) const {
+    std::vector<double> carried(skeleton.bodies.size());
+    for (std::size_t i = skeleton.bodies.size(); i-- > 0;) {
+      carried[i] += skeleton.bodies[i].mass;
+      const Joint& joint = skeleton.joints[i];
+      if (joint.type == JointType::fixed && joint.parent >= 0) {
+        carried[static_cast<std::size_t>(joint.parent)] += carried[i];
+      } else if (joint.type != JointType::fixed && carried[i] <= 0.0) {
+        const std::string& name = skeleton.bodies[i].name;
+        xml_.refuse({name, xml_.line_of_link(name)}, "no <inertial> of a link that moves",
+                    "its mass, centre of mass and inertia");
+      }
+    }
+  }
+
+  const SkeletonXml& xml_;
+  std::vector<LooseLink> links_;
+  std::vector<LooseJoint> joints_;
+  Eigen::Isometry3d X_WM_;
+  std::vector<int> inboard_;  // joint of each link, -1: none
+  std::vector<int> index_;    // body of each link, -1: not yet placed
+};
+
+LooseLink read_link(const sdf::Link& link, const SkeletonXml& xml) {
+  LooseLink loose;
+  loose.body.name = link.Name();
+  ignition::math::Pose3d pose;
+  refuse_errors(link.SemanticPose().Resolve(pose, "__model__"), xml);
+  loose.X_ML = to_eigen(pose);
+  if (xml.has_inertial(link.Name())) {
+    const ignition::math::Inertiald& inertial = link.Inertial();
+    loose.body.mass = inertial.MassMatrix().Mass();
+    loose.body.com = to_eigen(inertial.Pose().Pos());
+    loose.body.inertia = to_eigen(inertial.Moi());  // turned into the link's axes
+  }
+  return loose;
+}
+
+JointType joint_type(sdf::JointType type) {
+  switch (type) {
+    case sdf::JointType::PRISMATIC:
+      return JointType::prismatic;
+    case sdf::JointType::FIXED:
+      return JointType::fixed;
+    default:
+      return JointType::revolute;  // SkeletonXml lets only these through
+  }
+}
+
+LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
+  LooseJoint loose;
+  loose.joint.name = joint.Name();
+  loose.joint.type = joint_type(joint.Type());
+  refuse_errors(joint.ResolveParentLink(loose.parent), xml);
+  refuse_errors(joint.ResolveChildLink(loose.child), xml);
+  ignition::math::Pose3d pose;
+  refuse_errors(joint.SemanticPose().Resolve(pose, "__model__"), xml);
+  loose.X_MJ = to_eigen(pose);
+  if (loose.joint.type == JointType::fixed) {
+    return loose;
+  }
+  const sdf::JointAxis* axis = joint.Axis(0);
+  ignition::math::Vector3d direction;
+  if (axis != nullptr) {
+    refuse_errors(axis->ResolveXyz(direction), xml);
+  }
+  if (!(direction.Length() > 0.0)) {
+    xml.refuse({joint.Name(), xml.line_of_joint(joint.Name())}, "no axis", "an axis of a joint that moves");
+  }
+  loose.joint.axis = to_eigen(direction).normalized();
+  return loose;
+}
+
+Skeleton read_loaded(const sdf::Root& root, const SkeletonXml& xml) {
+  const sdf::World* world = root.WorldCount() > 0 ? root.WorldByIndex(0) : nullptr;
+  const sdf::Model* model = world != nullptr ? world->ModelByIndex(0) : root.Model();
+  if (model == nullptr) {
+    xml.refuse({"", 0}, "no model", "one model");
+  }
+  ignition::math::Pose3d pose = model->RawPose();
+  if (world != nullptr) {
+    refuse_errors(model->SemanticPose().Resolve(pose), xml);
+  }
+  std::vector<LooseLink> links;
+  for (std::size_t i = 0; i < model->LinkCount(); ++i) {
+    links.push_back(read_link(*model->LinkByIndex(i), xml));
+  }
+  std::vector<LooseJoint> joints;
+  for (std::size_t i = 0; i < model->JointCount(); ++i) {
+    joints.push_back(read_joint(*model->JointByIndex(i), xml));
+  }
+  Skeleton skeleton;
+  skeleton.file = xml.file();
+  if (world != nullptr && xml.states_gravity()) {
+    skeleton.gravity = to_eigen(world->Gravity());
+  }
+  TreeBuilder(xml, std::move(links), std::move(joints), to_eigen(pose)).build(skeleton);
+  return skeleton;
+}
+
+Skeleton load(SkeletonXml& xml) {
+  sdf::Root root;
+  refuse_errors(xml.is_urdf() ? root.LoadSdfString(xml.urdf_for_sdformat()) : root.Load(xml.file()), xml);
+  return read_loaded(root, xml);
+}
+
+}  // namespace
+
+Skeleton read_skeleton(const std::string& path) {
+  SkeletonXml xml(path);
+  const std::lock_guard<std::mutex> lock(quiet_sdformat());
+  try {
+    return load(xml);
+  } catch (const InputError&) {
+    throw;
+  } catch (const sdf::Exception& error) {
+    xml.refuse({"", 0}, error.GetErrorStr(), kExpected);
+  } catch (const std::exception& error) {
+    xml.refuse({"", 0}, error.what(), kExpected);
+  }
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,274 @@
+#include "simulator/model/skeleton_xml.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstring>
+
+#include "simulator/trace/file_text.h"
+#include "simulator/trace/number_text.h"
+
+namespace plumbline::model {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kRounding = 1e-6;  // of published moments of inertia, as a share of the largest
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::string attribute(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? "" : value;
+}
+
+std::vector<const XMLElement*> children(const XMLElement& parent, const char* name) {
+  std::vector<const XMLElement*> list;
+  for (const XMLElement* e = parent.FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) {
+    list.push_back(e);
+  }
+  return list;
+}
+
+int line_of(const std::vector<XmlPart>& parts, const std::string& name) {
+  const auto found =
+      std::find_if(parts.begin(), parts.end(), [&](const XmlPart& part) { return part.name == name; });
+  return found == parts.end() ? 0 : found->line;
+}
+
+/// Reason why no rigid body has these moments, or an empty text.
+std::string impossible(const Eigen::Matrix3d& inertia) {
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(principal[0] > 0.0)) {
+    return "a principal moment of " + number_text(principal[0], 6) + " kg m^2";
+  }
+  if (principal[2] > (principal[0] + principal[1]) * (1.0 + kRounding)) {
+    return "principal moments " + number_text(principal[0], 6) + ", " + number_text(principal[1], 6) + ", " +
+           number_text(principal[2], 6) + " kg m^2";
+  }
+  return "";
+}
+
+void remove_children(XMLElement& parent, const char* name) {
+  while (XMLElement* child = parent.FirstChildElement(name)) {
+    parent.DeleteChild(child);
+  }
+}
+
+}  // namespace
+
+SkeletonXml::SkeletonXml(const std::string& path) : file_(path) {
+  const std::string text = read_text(path);
+  if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw InputError({file_, document_.ErrorLineNum(), ""},
+                     std::string("text that is no XML (") + document_.ErrorName() + ")",
+                     "a whole SDFormat or URDF file");
+  }
+  const XMLElement& model = find_model();
+  check_links(model);
+  check_joints(model);
+}
+
+void SkeletonXml::refuse(const XmlPart& part, const std::string& found, const std::string& expected) const {
+  throw InputError({file_, part.line, part.name}, found, expected);
+}
+
+int SkeletonXml::line_of_link(const std::string& name) const { return line_of(links_, name); }
+int SkeletonXml::line_of_joint(const std::string& name) const { return line_of(joints_, name); }
+
+XmlPart SkeletonXml::part_in(const std::string& message) const {
+  for (const std::vector<XmlPart>& parts : {joints_, links_}) {
+    for (const XmlPart& part : parts) {
+      if (message.find("[" + part.name + "]") != std::string::npos ||
+          message.find("named " + part.name + " ") != std::string::npos) {
+        return part;
+      }
+    }
+  }
+  return {};
+}
+
+const XMLElement& SkeletonXml::find_model() {
+  const XMLElement* root = document_.RootElement();
+  const std::string kind = root == nullptr ? "" : root->Name();
+  if (kind != "sdf" && kind != "robot") {
+    refuse({"", root == nullptr ? 1 : root->GetLineNum()}, "root element <" + kind + ">", "<sdf> or <robot>");
+  }
+  urdf_ = kind == "robot";
+  if (urdf_) {
+    return *root;
+  }
+  const XMLElement* holder = root->FirstChildElement("world");
+  holder = holder == nullptr ? root : holder;
+  states_gravity_ = holder->FirstChildElement("gravity") != nullptr;
+  const std::vector<const XMLElement*> worlds = children(*root, "world");
+  const std::vector<const XMLElement*> models = children(*holder, "model");
+  if (worlds.size() > 1 || models.size() != 1) {
+    refuse({"", holder->GetLineNum()},
+           std::to_string(worlds.size()) + " worlds and " + std::to_string(models.size()) + " models",
+           "one model, alone or in one world");
+  }
+  for (const XMLElement* parent : {holder, models.front()}) {
+    if (const XMLElement* include = parent->FirstChildElement("include")) {
+      refuse({"include", include->GetLineNum()}, "an included model", "one model in one file");
+    }
+  }
+  if (const XMLElement* nested = models.front()->FirstChildElement("model")) {
+    refuse({attribute(*nested, "name"), nested->GetLineNum()}, "a model inside a model",
+           "links and joints only");
+  }
+  if (models.front()->Attribute("placement_frame") != nullptr) {
+    refuse({"placement_frame", models.front()->GetLineNum()}, "a placement frame", "the model's own pose");
+  }
+  return *models.front();
+}
+
+XmlPart SkeletonXml::named(const XMLElement& element, const std::vector<XmlPart>& taken) const {
+  const XmlPart part{attribute(element, "name"), element.GetLineNum()};
+  if (trimmed(part.name).empty()) {
+    refuse({element.Name(), part.line}, "no name", "the attribute name");
+  }
+  if (const int other = line_of(taken, part.name)) {
+    refuse(part,
+           std::string("a second ") + element.Name() + " of this name (the first is in line " +
+               std::to_string(other) + ")",
+           "each name once");
+  }
+  return part;
+}
+
+void SkeletonXml::check_links(const XMLElement& model) {
+  for (const XMLElement* link : children(model, "link")) {
+    const XmlPart part = named(*link, links_);
+    links_.push_back(part);
+    if (const XMLElement* inertial = link->FirstChildElement("inertial")) {
+      links_with_inertial_.insert(part.name);
+      check_inertial(*inertial, part);
+    }
+  }
+  if (links_.empty()) {
+    refuse({"", model.GetLineNum()}, "no links", "at least one link");
+  }
+}
+
+double SkeletonXml::number(const XMLElement& parent, const char* name, const XmlPart& part) const {
+  const bool in_attribute = urdf_ && std::strcmp(parent.Name(), "inertia") == 0;
+  const XMLElement* holder = in_attribute ? &parent : parent.FirstChildElement(name);
+  const char* text = nullptr;
+  if (holder != nullptr) {
+    text = in_attribute ? holder->Attribute(name) : (urdf_ ? holder->Attribute("value") : holder->GetText());
+  }
+  const XmlPart place{part.name + " " + name, (holder == nullptr ? parent : *holder).GetLineNum()};
+  if (text == nullptr) {
+    const bool is_product = name[0] == 'i' && name[1] != name[2];
+    return is_product && !urdf_ ? 0.0 : (refuse(place, "no value", "a number"), 0.0);
+  }
+  const std::optional<double> value = parse_number(trimmed(text));
+  if (!value) {
+    refuse(place, "\"" + std::string(text) + "\"", "a finite number");
+  }
+  return *value;
+}
+
+void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link) const {
+  const double mass = number(inertial, "mass", link);
+  if (!(mass > 0.0)) {
+    const int line = inertial.FirstChildElement("mass")->GetLineNum();
+    refuse({link.name + " mass", line}, number_text(mass) + " kg", "a mass above zero");
+  }
+  const XMLElement* inertia = inertial.FirstChildElement("inertia");
+  if (inertia == nullptr) {
+    refuse({link.name + " inertia", inertial.GetLineNum()}, "no inertia",
+           "ixx, iyy, izz and the products of inertia");
+  }
+  const double xy = number(*inertia, "ixy", link);
+  const double xz = number(*inertia, "ixz", link);
+  const double yz = number(*inertia, "iyz", link);
+  Eigen::Matrix3d I;
+  I << number(*inertia, "ixx", link), xy, xz, xy, number(*inertia, "iyy", link), yz, xz, yz,
+      number(*inertia, "izz", link);
+  const std::string reason = impossible(I);
+  if (!reason.empty()) {
+    refuse({link.name + " inertia", inertia->GetLineNum()}, reason,
+           "moments above zero, none larger than the sum of the other two");
+  }
+}
+
+void SkeletonXml::check_joints(const XMLElement& model) {
+  for (const XMLElement* joint : children(model, "joint")) {
+    const XmlPart part = named(*joint, joints_);
+    joints_.push_back(part);
+    check_joint(*joint, part);
+  }
+}
+
+void SkeletonXml::check_joint(const XMLElement& joint, const XmlPart& part) const {
+  const std::set<std::string> known{"revolute", "continuous", "prismatic", "fixed"};
+  const std::string type = attribute(joint, "type");
+  if (known.count(type) == 0) {
+    refuse(part, "joint type \"" + type + "\"", "revolute, continuous, prismatic or fixed");
+  }
+  if (urdf_) {
+    check_urdf_joint(joint, part);
+  }
+}
+
+void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part) const {
+  if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
+    refuse({part.name, mimic->GetLineNum()}, "a mimic joint",
+           "no mimic; tie it under `ratios` of the model file");
+  }
+  for (const char* end : {"parent", "child"}) {
+    const XMLElement* element = joint.FirstChildElement(end);
+    const std::string link = element == nullptr ? "" : attribute(*element, "link");
+    if (line_of_link(link) == 0) {
+      std::vector<std::string> names;
+      for (const XmlPart& known : links_) {
+        names.push_back(known.name);
+      }
+      refuse({part.name + " " + end, element == nullptr ? part.line : element->GetLineNum()},
+             "\"" + link + "\"", "the name of a link" + nearest_names(link, names));
+    }
+  }
+}
+
+void SkeletonXml::keep_fixed_joints(XMLElement& robot) {
+  for (const XMLElement* joint : children(robot, "joint")) {
+    if (attribute(*joint, "type") == "fixed") {
+      XMLElement* extension = document_.NewElement("gazebo");
+      extension->SetAttribute("reference", joint->Attribute("name"));
+      XMLElement* keep = document_.NewElement("preserveFixedJoint");
+      keep->SetText("true");
+      extension->InsertEndChild(keep);
+      robot.InsertEndChild(extension);
+    }
+  }
+}
+
+std::string SkeletonXml::urdf_for_sdformat() {
+  XMLElement& robot = *document_.RootElement();
+  for (const char* extension : {"gazebo", "transmission", "material"}) {
+    remove_children(robot, extension);
+  }
+  for (XMLElement* link = robot.FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    remove_children(*link, "visual");
+    remove_children(*link, "collision");
+    if (link->FirstChildElement("inertial") == nullptr && attribute(*link, "name") != "world") {
+      tinyxml2::XMLDocument placeholder;
+      placeholder.Parse(
+          "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>");
+      link->InsertEndChild(placeholder.RootElement()->DeepClone(&document_));
+    }
+  }
+  keep_fixed_joints(robot);
+  tinyxml2::XMLPrinter printer;
+  document_.Print(&printer);
+  return printer.CStr();
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,63 @@
+// A first look at a skeleton's XML, for what libsdformat would report without a line, silently drop or
+// invent.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "simulator/trace/error.h"
+
+namespace plumbline::model {
+
+/// A link or joint as it stands in the file.
+struct XmlPart {
+  std::string name;
+  int line = 0;
+};
+
+/// Reads an .sdf or .urdf and checks its parts: one model and nothing nested, known joint types, each name
+/// once, numbers of every inertial (mass > 0, principal moments > 0, none larger than the sum of the other
+/// two). Throws InputError with file, line, link or joint.
+class SkeletonXml {
+ public:
+  explicit SkeletonXml(const std::string& path);
+
+  const std::string& file() const { return file_; }
+  bool is_urdf() const { return urdf_; }
+  /// True when the world states its own gravity.
+  bool states_gravity() const { return states_gravity_; }
+  bool has_inertial(const std::string& link) const { return links_with_inertial_.count(link) != 0; }
+  int line_of_link(const std::string& name) const;
+  int line_of_joint(const std::string& name) const;
+  /// The part that a message of libsdformat speaks of; an empty name when it names none.
+  XmlPart part_in(const std::string& message) const;
+
+  /// A URDF such that libsdformat keeps every link: fixed joints are kept, massless links get a placeholder
+  /// inertial (which has_inertial() tells from a real one), extensions and shapes are left out.
+  std::string urdf_for_sdformat();
+
+  [[noreturn]] void refuse(const XmlPart& part, const std::string& found, const std::string& expected) const;
+
+ private:
+  const tinyxml2::XMLElement& find_model();
+  void check_links(const tinyxml2::XMLElement& model);
+  void check_joints(const tinyxml2::XMLElement& model);
+  void check_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;
+  void check_urdf_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;
+  void check_inertial(const tinyxml2::XMLElement& inertial, const XmlPart& link) const;
+  double number(const tinyxml2::XMLElement& parent, const char* name, const XmlPart& part) const;
+  XmlPart named(const tinyxml2::XMLElement& element, const std::vector<XmlPart>& taken) const;
+  void keep_fixed_joints(tinyxml2::XMLElement& robot);
+
+  std::string file_;
+  tinyxml2::XMLDocument document_;
+  bool urdf_ = false;
+  bool states_gravity_ = false;
+  std::vector<XmlPart> links_, joints_;
+  std::set<std::string> links_with_inertial_;
+};
+
+}  // namespace plumbline::model

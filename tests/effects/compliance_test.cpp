@@ -1,0 +1,165 @@
+// Springs, stretch and play against the motions that textbooks give for them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/effects/rk4.h"
+#include "tests/effects/sampling.h"
+
+namespace plumbline::effects {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+std::shared_ptr<const ForceLaw> law_named(const std::string& name) {
+  return std::dynamic_pointer_cast<const ForceLaw>(Catalogue::all().find(name));
+}
+
+/// A mass on the law: {position, velocity} after some time.
+State swing(const ForceLaw& law, const Values& p, double mass, State x, double duration, int steps) {
+  return rk4(
+      [&](const State& y) {
+        return State{y[1], law.force({y[0], y[1], 0}, nullptr, p.data()) / mass};
+      },
+      x, duration, steps);
+}
+
+double value(const Law& law, const Values& p, const std::string& name) {
+  return p[static_cast<std::size_t>(law.parameter_index(name))];
+}
+
+// Underdamped oscillator (Thomson, Theory of Vibration, chapter 2): after one damped period
+// 2 pi/(w sqrt(1 - zeta^2)) the displacement has shrunk by exp(-2 pi zeta/sqrt(1 - zeta^2)).
+TEST(CableStretch, StartsRingAtTheirFrequenciesAndDecay) {
+  const auto law = law_named("cable_stretch");
+  const Scales scales = test_scales();
+  const auto starts = law->starts(scales);
+  const std::vector<double> frequencies{6, 18, 50};
+  ASSERT_EQ(starts.size(), frequencies.size());
+  const double zeta = 0.3, root = std::sqrt(1 - zeta * zeta);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double w = 2 * kPi * frequencies[i];
+    const State end =
+        swing(*law, starts[i], scales.inertia, {0.01, -zeta * w * 0.01}, 2 * kPi / (w * root), 4000);
+    EXPECT_NEAR(end[0], 0.01 * std::exp(-2 * kPi * zeta / root), 1e-9);
+  }
+}
+
+// Park et al. 2011, Table VIII (mLA left): K_C = 3.5 N m/rad, Kd_C = 0.0889 N m s/rad; the force restores.
+TEST(CableStretch, GivesTheTorqueOfTableEight) {
+  const auto law = law_named("cable_stretch");
+  const Values p = values_of(*law, {{"stiffness", 3.5}, {"damping", 0.0889}});
+  EXPECT_NEAR(law->force({0.2, 0.0, 0}, nullptr, p.data()), -0.7, 1e-12);
+  EXPECT_NEAR(law->force({0.0, 10.0, 0}, nullptr, p.data()), -0.889, 1e-12);
+}
+
+TEST(CableStretch, IsNullOnlyWhenInfinitelyStiff) {
+  const auto law = law_named("cable_stretch");
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(law->is_null(values_of(*law, {{"stiffness", infinity}, {"damping", 2.0}}).data()));
+  EXPECT_FALSE(law->is_null(values_of(*law, {{"stiffness", 1e12}}).data()));
+}
+
+// A mass between two springs with play: crosses the gap in gap/v0, stays half an own period pi/w on each
+// side.
+TEST(Backlash, BouncesWithItsClosedFormPeriod) {
+  const auto law = law_named("backlash");
+  const double gap = 0.2, stiffness = 50.0, mass = 0.5, speed = 1.0;
+  const Values p = values_of(*law, {{"gap", gap}, {"stiffness", stiffness}, {"damping", 0.0}});
+  const double period = 2 * gap / speed + 2 * kPi / std::sqrt(stiffness / mass);
+  const State end = swing(*law, p, mass, {0.0, speed}, period, 40000);
+  EXPECT_NEAR(end[0], 0.0, 1e-6);
+  EXPECT_NEAR(end[1], speed, 1e-6);
+}
+
+TEST(Backlash, IsFreeInTheGapAndNeverPulls) {
+  const auto law = law_named("backlash");
+  const Values p = values_of(*law, {{"gap", 0.2}, {"stiffness", 50.0}, {"damping", 2.0}});
+  EXPECT_EQ(law->force({0.099, 5.0, 0}, nullptr, p.data()), 0.0);
+  EXPECT_EQ(law->force({-0.099, 5.0, 0}, nullptr, p.data()), 0.0);
+  EXPECT_NEAR(law->force({0.11, 0.0, 0}, nullptr, p.data()), -0.5, 1e-12);
+  EXPECT_NEAR(law->force({-0.11, 0.0, 0}, nullptr, p.data()), 0.5, 1e-12);
+  EXPECT_NEAR(law->force({0.11, 1.0, 0}, nullptr, p.data()), -2.5, 1e-12);
+  EXPECT_EQ(law->force({0.11, -1.0, 0}, nullptr, p.data()), 0.0);  // parts faster than it relaxes
+}
+
+TEST(Backlash, StartsInStiffContact) {
+  const auto law = law_named("backlash");
+  const Scales scales = test_scales();
+  for (const auto& start : law->starts(scales)) {
+    const double w = std::sqrt(value(*law, start, "stiffness") / scales.inertia);
+    EXPECT_NEAR(w / (2 * kPi), 60.0, 1e-9);
+    EXPECT_NEAR(value(*law, start, "damping") / (2 * scales.inertia * w), 0.3, 1e-12);
+    EXPECT_GT(value(*law, start, "gap"), 0.0);
+    EXPECT_LT(value(*law, start, "gap"), scales.position);
+  }
+}
+
+TEST(Spring, SwingsWithThePeriodOfItsStiffness) {
+  const auto law = law_named("spring");
+  const Values p = values_of(*law, {{"stiffness", 8.0}, {"rest", 0.3}});
+  const State end = swing(*law, p, 2.0, {0.5, 0.0}, 2 * kPi / std::sqrt(8.0 / 2.0), 4000);
+  EXPECT_NEAR(end[0], 0.5, 1e-9);
+  EXPECT_NEAR(end[1], 0.0, 1e-9);
+}
+
+// Purely cubic oscillator (Kovacic and Brennan 2011): period = Gamma(1/4)^2/sqrt(pi) sqrt(m/k3)/A = 7.41630
+// ...
+TEST(Hardening, SwingsWithThePeriodOfTheCubicOscillator) {
+  const auto law = law_named("hardening");
+  const double k3 = 5.0, mass = 2.0, amplitude = 0.4;
+  const Values p = values_of(*law, {{"cubic_stiffness", k3}, {"rest", 0.1}});
+  const double period = std::pow(std::tgamma(0.25), 2) / std::sqrt(kPi) * std::sqrt(mass / k3) / amplitude;
+  const State end = swing(*law, p, mass, {0.1 + amplitude, 0.0}, period, 20000);
+  EXPECT_NEAR(end[0], 0.1 + amplitude, 1e-9);
+  EXPECT_NEAR(end[1], 0.0, 1e-8);
+}
+
+// Constant deceleration: stops after m v^2/(2 F).
+TEST(Preload, StopsAMassAfterItsKineticEnergy) {
+  const auto law = law_named("preload");
+  const Values p = values_of(*law, {{"preload", 3.0}});
+  const State end = swing(*law, p, 2.0, {0.0, 1.5}, 2.0 * 1.5 / 3.0, 100);
+  EXPECT_NEAR(end[0], 2.0 * 1.5 * 1.5 / (2 * 3.0), 1e-12);
+  EXPECT_NEAR(end[1], 0.0, 1e-12);
+}
+
+TEST(UnilateralSpring, ActsOnItsSideOnly) {
+  const auto law = law_named("unilateral_spring");
+  for (const double side : {1.0, -1.0}) {
+    const Values p = values_of(
+        *law,
+        {{"stiffness", 100.0}, {"preload", 3.0}, {"rest", 0.5}, {"side", side}, {"smoothing_length", 1e-4}});
+    EXPECT_EQ(law->force({0.5 - side * 0.1, 1.0, 0}, nullptr, p.data()), 0.0);
+    EXPECT_NEAR(law->force({0.5 + side * 0.1, 1.0, 0}, nullptr, p.data()), -side * 13.0, 1e-9);
+    // Work of compression: k d^2/2 + F0 d, less what the smoothing of the preload leaves out (F0 l ln 2).
+    EXPECT_NEAR(law->stored_energy({0.5 + side * 0.1, 0, 0}, nullptr, p.data()),
+                0.5 * 100 * 0.01 + 3 * 0.1 - 3 * 1e-4 * 0.6931471805599453, 1e-9);
+    EXPECT_NEAR(law->force({0.5 + side * 1e-12, 0, 0}, nullptr, p.data()), 0.0, 1e-6);  // no jump
+  }
+}
+
+TEST(UnilateralSpring, StartsOnBothSidesAroundTheCentre) {
+  const auto law = law_named("unilateral_spring");
+  EXPECT_EQ(law->starts(test_scales()).size(), 6U);
+}
+
+// Holtz and Springob 1996: repeats every 2 pi/N, no mean, amplitude sqrt(A_s^2 + A_c^2).
+TEST(Cogging, RepeatsWithEveryCycleAndHasNoMean) {
+  const auto law = law_named("cogging");
+  const Values p = values_of(*law, {{"sine", 0.3}, {"cosine", -0.4}, {"cycles", 14.0}});
+  double largest = 0.0, mean = 0.0;
+  constexpr int kSteps = 14000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = 2 * kPi * i / kSteps;
+    const double force = law->force({x, 1.0, 0}, nullptr, p.data());
+    EXPECT_NEAR(force, law->force({x + 2 * kPi / 14, 1.0, 0}, nullptr, p.data()), 1e-12);
+    largest = std::max(largest, std::abs(force));
+    mean += force / kSteps;
+  }
+  EXPECT_NEAR(largest, 0.5, 1e-5);
+  EXPECT_NEAR(mean, 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace plumbline::effects

@@ -1,0 +1,73 @@
+// The hard stop against hand calculations with Table VIII of Park et al. (2011): K_d1 = 100 N m/rad^3,
+// K_vd2 = 50 N m/(rad/s)^0.5. K_vd1 is not readable there; 2 N m s/rad stands in for it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/effects/sampling.h"
+
+namespace plumbline::effects {
+namespace {
+
+class HardStopTest : public testing::Test {
+ protected:
+  std::shared_ptr<const ForceLaw> law =
+      std::dynamic_pointer_cast<const ForceLaw>(Catalogue::all().find("hard_stop"));
+
+  Values stop(double position, double side) const {
+    return values_of(*law, {{"cubic_stiffness", 100.0},
+                            {"damping", 2.0},
+                            {"root_damping", 50.0},
+                            {"position", position},
+                            {"side", side}});
+  }
+  double force(double x, double v, const Values& p) const { return law->force({x, v, 0}, nullptr, p.data()); }
+};
+
+// Equation 28 for q_Bsp <= 0, that is a stop at 0 with side -1, without the spring's own term:
+// - K_d1 q^3 - K_vd1 q' and, moving in (q' < 0), - K_vd2 sqrt|q'| sgn(q').
+TEST_F(HardStopTest, GivesTheTorquesOfTableEight) {
+  const Values p = stop(0.0, -1.0);
+  EXPECT_EQ(force(0.1, -4.0, p), 0.0);
+  EXPECT_NEAR(force(-0.1, 0.0, p), 0.1, 1e-12);
+  EXPECT_NEAR(force(-0.2, 0.0, p), 0.8, 1e-12);
+  EXPECT_NEAR(force(-0.1, -4.0, p), 0.1 + 8.0 + 100.0, 1e-12);  // 50 sqrt(4) = 100
+  EXPECT_NEAR(force(-0.1, 4.0, p), 0.1 - 8.0, 1e-12);           // moving out: no root term
+}
+
+TEST_F(HardStopTest, IsItsOwnMirrorImage) {
+  const Values above = stop(0.7, 1.0);
+  const Values below = stop(-0.7, -1.0);
+  for (const double x : {0.6, 0.8, 0.95}) {
+    for (const double v : {-3.0, 0.0, 2.0}) EXPECT_DOUBLE_EQ(force(x, v, above), -force(-x, -v, below));
+  }
+}
+
+// The root's numbers scale with the reference speed as sqrt.
+TEST_F(HardStopTest, TakesTheRootRelativeToItsSpeed) {
+  Values p = values_of(*law, {{"root_damping", 50.0}, {"root_speed", 4.0}});
+  EXPECT_NEAR(force(0.1, 4.0, p), -50.0, 1e-12);
+  EXPECT_NEAR(force(0.1, 1.0, p), -25.0, 1e-12);
+}
+
+TEST_F(HardStopTest, SwitchesAtTheStopAndWhereMotionTurnsInIt) {
+  const Values p = stop(0.5, 1.0);
+  const auto switches = [&](double x, double v) {
+    std::vector<double> g;
+    law->switches({x, v, 0}, p.data(), g);
+    return g;
+  };
+  EXPECT_LT(switches(0.4, 1.0)[0], 0.0);
+  EXPECT_GT(switches(0.6, 1.0)[0], 0.0);
+  EXPECT_GT(switches(0.6, 1.0)[1], 0.0);
+  EXPECT_LT(switches(0.6, -1.0)[1], 0.0);
+  EXPECT_EQ(switches(0.4, 1.0)[1], switches(0.4, -1.0)[1]);  // turning outside is no event
+}
+
+TEST_F(HardStopTest, IsNullWhereverItWouldBe) {
+  EXPECT_TRUE(law->is_null(values_of(*law, {{"position", 0.4}, {"side", -1.0}}).data()));
+  EXPECT_FALSE(law->is_null(values_of(*law, {{"damping", 0.1}}).data()));
+}
+
+}  // namespace
+}  // namespace plumbline::effects

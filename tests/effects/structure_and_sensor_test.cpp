@@ -1,0 +1,65 @@
+// Changes of constants land where they belong.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "tests/effects/sampling.h"
+
+namespace plumbline::effects {
+namespace {
+
+StructureChange change_of(const std::string& name, const std::vector<std::pair<std::string, double>>& given) {
+  const auto law = std::dynamic_pointer_cast<const StructureLaw>(Catalogue::all().find(name));
+  return law->change(values_of(*law, given).data());
+}
+
+double reading_of(const std::string& name, const std::string& parameter, double value, double actual) {
+  const auto law = std::dynamic_pointer_cast<const SensorLaw>(Catalogue::all().find(name));
+  return law->reading(actual, values_of(*law, {{parameter, value}}).data());
+}
+
+TEST(RotorInertia, ChangesTheInertiaOnly) {
+  const StructureChange change = change_of("rotor_inertia", {{"inertia", -1e-4}});
+  EXPECT_EQ(change.inertia, -1e-4);
+  EXPECT_EQ(change.mass, 0.0);
+  EXPECT_EQ(change.com_shift.norm() + change.tilt.norm(), 0.0);
+}
+
+TEST(AddedMass, ChangesTheMassOnly) {
+  const StructureChange change = change_of("added_mass", {{"mass", 1.5}});
+  EXPECT_EQ(change.mass, 1.5);
+  EXPECT_EQ(change.inertia, 0.0);
+  EXPECT_EQ(change.com_shift.norm() + change.tilt.norm(), 0.0);
+}
+
+TEST(ComShift, MovesTheCentreOfMassOnly) {
+  const StructureChange change = change_of("com_shift", {{"x", 0.01}, {"y", -0.02}, {"z", 0.03}});
+  EXPECT_EQ(change.com_shift, Eigen::Vector3d(0.01, -0.02, 0.03));
+  EXPECT_EQ(change.inertia + change.mass + change.tilt.norm(), 0.0);
+}
+
+// A rotation by r about x turns (0, 0, -g) into (0, g sin r, -g cos r); by r about y into (-g sin r, 0, -g
+// cos r).
+TEST(GravityTilt, TurnsGravityAboutTheWorldsAxes) {
+  const double g = 9.80665, angle = 0.1;
+  const auto tilted = [&](const StructureChange& change) -> Eigen::Vector3d {
+    const double size = change.tilt.norm();
+    return Eigen::AngleAxisd(size, change.tilt / size) * Eigen::Vector3d(0, 0, -g);
+  };
+  const Eigen::Vector3d rolled = tilted(change_of("gravity_tilt", {{"roll", angle}}));
+  EXPECT_TRUE(rolled.isApprox(Eigen::Vector3d(0, g * std::sin(angle), -g * std::cos(angle)), 1e-12));
+  const Eigen::Vector3d pitched = tilted(change_of("gravity_tilt", {{"pitch", angle}}));
+  EXPECT_TRUE(pitched.isApprox(Eigen::Vector3d(-g * std::sin(angle), 0, -g * std::cos(angle)), 1e-12));
+}
+
+TEST(EncoderOffset, ShiftsTheReading) {
+  EXPECT_DOUBLE_EQ(reading_of("encoder_offset", "offset", 0.25, -1.0), -0.75);
+}
+
+TEST(EncoderScale, ScalesTheReading) {
+  EXPECT_DOUBLE_EQ(reading_of("encoder_scale", "scale", 1.02, -2.0), -2.04);
+}
+
+}  // namespace
+}  // namespace plumbline::effects

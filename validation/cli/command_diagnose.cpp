@@ -1,0 +1,194 @@
+#include <fmt/core.h>
+
+#include "simulator/model/robot_file.h"
+#include "validation/cli/commands.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::cli {
+namespace {
+
+using validation::Diagnosis;
+using validation::Finding;
+using validation::Named;
+using validation::ParameterValue;
+using validation::RankRow;
+using validation::Verdict;
+
+nlohmann::json to_json(const RankRow& row) {
+  return {{"effect", row.effect},     {"at", row.at},
+          {"score", row.score},       {"held_out_after", row.held_out_after},
+          {"train_after", row.train_after}, {"refitted", row.refitted},
+          {"remark", row.remark}};
+}
+
+nlohmann::json to_json(const Finding& finding) {
+  nlohmann::json json{{"effect", finding.effect},
+                      {"at", finding.at},
+                      {"held_out_before", finding.held_out_before},
+                      {"held_out_after", finding.held_out_after},
+                      {"train_before", finding.train_before},
+                      {"train_after", finding.train_after},
+                      {"selected_share", finding.selected_share},
+                      {"rivals", nlohmann::json::array()},
+                      {"parameters", nlohmann::json::array()}};
+  for (const Named& rival : finding.rivals) {
+    json["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
+  }
+  for (const ParameterValue& p : finding.parameters) {
+    json["parameters"].push_back(
+        {{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"standard_deviation", p.deviation}});
+  }
+  return json;
+}
+
+nlohmann::json to_json(const Diagnosis& diagnosis) {
+  nlohmann::json json;
+  json["verdict"] = validation::to_string(diagnosis.verdict);
+  json["unexplained_share"] = diagnosis.unexplained_share;
+  json["candidates"] = diagnosis.candidates;
+  json["interrupted"] = diagnosis.interrupted;
+  for (const char* key : {"accepted", "ranking", "leads", "ladder"}) {
+    json[key] = nlohmann::json::array();
+  }
+  for (const Finding& finding : diagnosis.accepted) {
+    json["accepted"].push_back(to_json(finding));
+  }
+  for (const RankRow& row : diagnosis.ranking) {
+    json["ranking"].push_back(to_json(row));
+  }
+  for (const RankRow& row : diagnosis.leads) {
+    json["leads"].push_back(to_json(row));
+  }
+  for (const validation::Rung& rung : diagnosis.ladder) {
+    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train}, {"held_out", rung.held_out}});
+  }
+  return json;
+}
+
+void print_verdict(const Diagnosis& diagnosis) {
+  if (diagnosis.interrupted) {
+    fmt::print("Stopped before the end: what follows is what was finished.\n\n");
+  }
+  const validation::Rung& first = diagnosis.ladder.front();
+  const validation::Rung& last = diagnosis.ladder.back();
+  switch (diagnosis.verdict) {
+    case Verdict::nothing_missing:
+      fmt::print("Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
+                 "alone would leave.\n", last.held_out);
+      return;
+    case Verdict::unexplained:
+      fmt::print("Unexplained: the model's held-out error is {:.2f} times the floor, and no effect of the "
+                 "catalogue explains it.\n", last.held_out);
+      return;
+    case Verdict::missing:
+      break;
+  }
+  for (const Finding& finding : diagnosis.accepted) {
+    fmt::print("Missing: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
+               "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
+               finding.effect, finding.at, finding.held_out_before, finding.held_out_after, finding.train_before,
+               finding.train_after, 100.0 * finding.selected_share);
+    fmt::print("  {}\n", finding.equation);
+    for (const ParameterValue& p : finding.parameters) {
+      fmt::print("  {} = {:.4g} +- {:.2g} {}\n", p.name, p.value, p.deviation, p.unit);
+    }
+    if (!finding.rivals.empty()) {
+      fmt::print("  These data cannot tell it from:");
+      for (const Named& rival : finding.rivals) {
+        fmt::print(" {} at {};", rival.effect, rival.at);
+      }
+      fmt::print("\n");
+    }
+  }
+  fmt::print("In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
+             "above the floor stays unexplained.\n",
+             first.held_out, last.held_out, 100.0 * diagnosis.unexplained_share);
+}
+
+void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < std::min(most, ranking.size()); ++i) {
+    const RankRow& r = ranking[i];
+    rows.push_back({r.effect, r.at, fmt::format("{:.3f}", r.train_after), fmt::format("{:.3f}", r.held_out_after),
+                    r.refitted ? "refitted" : "promised", r.remark});
+  }
+  print_table({"effect", "at", "train", "held-out", "", "remark"}, rows);
+}
+
+void print(const Diagnosis& diagnosis) {
+  print_verdict(diagnosis);
+  fmt::print("\nLadder (error in units of the floor):\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::Rung& rung : diagnosis.ladder) {
+    rows.push_back({rung.name, fmt::format("{:.3f}", rung.train), fmt::format("{:.3f}", rung.held_out)});
+  }
+  print_table({"model", "train", "held-out"}, rows);
+  if (!diagnosis.ranking.empty()) {
+    fmt::print("\nBest candidates of the first round, of {} screened:\n\n", diagnosis.candidates);
+    print_rows(diagnosis.ranking, 10);
+  }
+  if (diagnosis.verdict != Verdict::nothing_missing && !diagnosis.leads.empty()) {
+    fmt::print("\nTried last and not accepted:\n\n");
+    print_rows(diagnosis.leads, 6);
+  }
+}
+
+void save_model(const Diagnosis& diagnosis, const std::string& base, const std::string& file) {
+  std::vector<model::AddedEffect> added;
+  std::vector<model::NewValue> values;
+  const auto& stage = diagnosis.final_stage;
+  const std::size_t own = stage.model.effects.size() - diagnosis.accepted.size();
+  for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
+    const model::EffectUse& use = stage.model.effects[e];
+    added.push_back({use.law->declaration().name, use.at, use.numbers()});
+  }
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    const auto& parameter = stage.parameters[p];
+    if (parameter.id.effect < static_cast<int>(own)) {
+      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)], 0.0, parameter.unit,
+                        "diagnose"});
+    }
+  }
+  model::write_overlay(file, base, added, values, "written by plumbline diagnose");
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
+  struct Options {
+    Inputs inputs;
+    std::string save;
+    validation::DiagnoseOptions diagnose;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("diagnose", "Which effect is missing, where, how sure");
+  add_trial_inputs(*command, options->inputs);
+  command->add_option("--without", options->inputs.without, "effects to leave out of the catalogue")
+      ->type_name("EFFECT");
+  command->add_option("--save", options->save, "write the model with what was found as an overlay")
+      ->type_name("FILE");
+  command->add_option("--most", options->diagnose.most_effects, "most effects to accept")->capture_default_str();
+  command->add_option("--refits", options->diagnose.refits, "candidates refitted in each round")
+      ->capture_default_str();
+  command->add_option("--seed", options->diagnose.seed, "seed of the resampling")->capture_default_str();
+  command->footer("Example:\n  plumbline diagnose demo/siso_mLA demo/siso_mLS demo/mimo --save found.yaml");
+  command->callback([options] {
+    const effects::Catalogue catalogue = catalogue_for(options->inputs);
+    const Loaded loaded = load(options->inputs, effects::Catalogue::all());
+    Diagnosis diagnosis;
+    {
+      ProgressLine progress;
+      diagnosis =
+          validation::diagnose(loaded.model, catalogue, *loaded.data, options->diagnose, progress.callback());
+    }
+    write_json(to_json(diagnosis), options->inputs.json);
+    if (!options->save.empty()) {
+      save_model(diagnosis, loaded.model.file, options->save);
+    }
+    print(diagnosis);
+  });
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,7 @@
+#include "validation/cli/commands.h"
+
+namespace plumbline::cli {
+
+void add_simulate(CLI::App& /*app*/, Outcome& /*outcome*/) {}
+
+}  // namespace plumbline::cli

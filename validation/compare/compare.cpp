@@ -1,0 +1,64 @@
+#include "validation/compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::validation {
+namespace {
+
+std::vector<ChannelError> channel_errors(const model::Model& model, const Data& data, const Estimate& estimate) {
+  std::vector<ChannelError> errors;
+  for (std::size_t t = 0; t < data.trials.size(); ++t) {
+    const Trial& trial = data.trials[t];
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trial.measured.size()));
+    double samples = 0.0;
+    for (std::size_t w = 0; w < data.windows.size(); ++w) {
+      if (data.windows[w].trial == static_cast<int>(t)) {
+        sum += estimate.square[w];
+        samples += static_cast<double>(data.windows[w].count);
+      }
+    }
+    for (std::size_t c = 0; c < trial.measured.size(); ++c) {
+      const model::Sensor& sensor = *model.find_sensor(trial.measured[c].sensor);
+      ChannelError error;
+      error.trial = trial.name;
+      error.name = sensor.name;
+      error.unit = model.place_is_angular(effects::Place::sensor, sensor.name) ? "rad" : "m";
+      error.role = trial.role;
+      error.floor = sensor.floor();
+      error.ratio = std::sqrt(sum[static_cast<Eigen::Index>(c)] / std::max(samples, 1.0));
+      error.rms = error.ratio * error.floor;
+      errors.push_back(error);
+    }
+  }
+  return errors;
+}
+
+std::vector<WindowError> window_errors(const Data& data, const Estimate& estimate) {
+  std::vector<WindowError> errors;
+  for (std::size_t w = 0; w < data.windows.size(); ++w) {
+    const Window& window = data.windows[w];
+    const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
+    const Eigen::VectorXd square = estimate.square[w] / static_cast<double>(window.count);
+    Eigen::Index worst = 0;
+    square.maxCoeff(&worst);
+    errors.push_back({trial.name, trial.time[window.first], trial.time[window.first + window.count - 1],
+                      std::sqrt(square.mean()), trial.measured[static_cast<std::size_t>(worst)].sensor});
+  }
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const WindowError& a, const WindowError& b) { return a.ratio > b.ratio; });
+  return errors;
+}
+
+}  // namespace
+
+Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores};
+}
+
+Comparison compare(const model::Model& model, const Data& data) {
+  PredictorPool pool(model, data);
+  return compare(model, data, estimate(pool, {}, Eigen::VectorXd(), {}, {8, 1e-5}));
+}
+
+}  // namespace plumbline::validation

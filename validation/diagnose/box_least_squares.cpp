@@ -1,0 +1,47 @@
+#include "validation/diagnose/box_least_squares.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::validation {
+
+Eigen::VectorXd box_least_squares(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
+                                  const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  const Eigen::Index n = g.size();
+  // The unconstrained minimum is usually inside.
+  Eigen::MatrixXd ridge = H;
+  ridge.diagonal() *= 1.0 + 1e-10;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(ridge);
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
+  if (n > 0 && factor.info() == Eigen::Success && factor.isPositive() &&
+      factor.vectorD().minCoeff() > 1e-12 * std::max(1e-300, factor.vectorD().maxCoeff())) {
+    d = factor.solve(g);
+    if ((d.array() >= lower.array()).all() && (d.array() <= upper.array()).all()) {
+      return d;
+    }
+  }
+  d = d.cwiseMax(lower).cwiseMin(upper);
+  Eigen::VectorXd slope = g - H * d;
+  for (int sweep = 0; sweep < 2000; ++sweep) {
+    double moved = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!(H(i, i) > 0.0)) {
+        continue;
+      }
+      const double next = std::clamp(d[i] + slope[i] / H(i, i), lower[i], upper[i]);
+      const double step = next - d[i];
+      if (step != 0.0) {
+        slope -= H.col(i) * step;
+        d[i] = next;
+        moved = std::max(moved, std::abs(step) * std::sqrt(H(i, i)));
+      }
+    }
+    if (moved < 1e-6) {
+      break;
+    }
+  }
+  return d;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,267 @@
+#include "validation/diagnose/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::validation {
+namespace {
+
+using effects::Place;
+
+/// Typical magnitudes of the motion of a place over the train windows, from the measurements.
+class PlaceMotions {
+ public:
+  PlaceMotions(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Estimate& estimate)
+      : pool_(pool), parameters_(parameters), estimate_(estimate) {}
+
+  effects::Scales at(Place place, const std::string& name) {
+    const std::string key = effects::to_string(place) + " " + name;
+    const auto found = known_.find(key);
+    return found != known_.end() ? found->second : known_[key] = measure(place, name);
+  }
+
+ private:
+  effects::Scales measure(Place place, const std::string& name);
+
+  PredictorPool& pool_;
+  const std::vector<FreeParameter>& parameters_;
+  const Estimate& estimate_;
+  std::map<std::string, effects::Scales> known_;
+};
+
+effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
+  const Data& data = pool_.data();
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double sum = 0.0;
+  double v2 = 0.0;
+  double torque2 = 0.0;
+  double inertia = 0.0;
+  double count = 0.0;
+  effects::Scales scales;
+  for (const int w : data.windows_of(Role::train)) {
+    const auto i = static_cast<std::size_t>(w);
+    pool_.with(w, parameters_, estimate_.theta, [&](Predictor& predictor) {
+      model::Plant& plant = predictor.plant();
+      const model::Model& model = plant.model();
+      std::string seen = name;
+      if (place == Place::ratio) {
+        seen = model.find_ratio(name)->motor;
+      }
+      const Window& window = data.windows[i];
+      const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
+      for (Eigen::Index k = 0; k < window.count; k += std::max<Eigen::Index>(1, window.count / 16)) {
+        const Window here{window.trial, window.first + k, window.count - k};
+        const Eigen::VectorXd x = predictor.initial_state(here);
+        const double position = plant.position_of(seen, x.data());
+        const double velocity = plant.velocity_of(seen, x.data());
+        low = std::min(low, position);
+        high = std::max(high, position);
+        sum += position;
+        v2 += velocity * velocity;
+        count += 1.0;
+      }
+      Eigen::VectorXd xdot(plant.states());
+      const Eigen::VectorXd x = predictor.initial_state(window);
+      const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
+      plant.rate(x.data(), idle.data(), xdot.data());
+      inertia = std::max(inertia, std::min(plant.inertia_of(seen), 1e12));
+      for (int m = 0; m < plant.motors(); ++m) {
+        for (const Command& command : trial.commands) {
+          const model::Motor& motor = model.motors[static_cast<std::size_t>(m)];
+          if (command.motor != motor.name) {
+            continue;
+          }
+          // The square root of the inertias' ratio is about the gear ratio between motor and place.
+          const double ratio = std::sqrt(std::max(plant.inertia_of(seen), 1e-12) /
+                                         std::max(plant.inertia_of(motor.name), 1e-12));
+          torque2 = std::max(torque2, std::pow(plant.torque_gain(m) * ratio, 2) *
+                                          command.values.squaredNorm() /
+                                          static_cast<double>(command.values.size()));
+        }
+      }
+      scales.period = trial.period;
+    });
+  }
+  scales.center = count > 0.0 ? 0.5 * (low + high) : 0.0;
+  scales.position = std::max(0.5 * (high - low), 1e-9);
+  scales.velocity = std::max(std::sqrt(v2 / std::max(count, 1.0)), 1e-9);
+  scales.inertia = std::max(inertia, 1e-12);
+  scales.force = std::max(std::sqrt(torque2), 1e-9);
+  if (place == Place::ratio) {
+    // The two sides of a released ratio swing against each other: about half of what the motor drives.
+    scales.inertia *= 0.25;
+  }
+  return scales;
+}
+
+/// Direction of a place in the independent coordinates of a plant without locks.
+Eigen::VectorXd direction(model::Plant& plant, const std::string& at) {
+  Eigen::VectorXd d(plant.positions());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    x[plant.positions() + i] = 1.0;
+    d[i] = plant.velocity_of(at, x.data());
+    x[plant.positions() + i] = 0.0;
+  }
+  return d;
+}
+
+/// Names of all places of one law, those that are rigidly tied joined into one.
+std::vector<std::pair<std::string, std::vector<std::string>>> joined_places(model::Plant& plant,
+                                                                            const effects::Law& law,
+                                                                            Place* type) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> joined;
+  std::vector<Eigen::VectorXd> directions;
+  std::vector<Place> order = law.declaration().places;
+  std::sort(order.begin(), order.end(), [](Place a, Place b) { return a == Place::motor && b != Place::motor; });
+  for (const Place place : order) {
+    *type = place;
+    for (const std::string& at : plant.model().places(place)) {
+      if (place != Place::coordinate && place != Place::motor) {
+        joined.push_back({at, {}});
+        continue;
+      }
+      const Eigen::VectorXd d = direction(plant, at);
+      bool known = false;
+      for (std::size_t j = 0; j < directions.size() && !known; ++j) {
+        const double scale = d.norm() * directions[j].norm();
+        known = scale > 0.0 && std::abs(d.dot(directions[j])) > (1.0 - 1e-9) * scale;
+        if (known) {
+          joined[j].second.push_back(at);
+        }
+      }
+      if (!known) {
+        joined.push_back({at, {}});
+        directions.push_back(d);
+      }
+    }
+  }
+  return joined;
+}
+
+bool is_measured(const std::vector<Trial>& trials, const std::string& sensor) {
+  return std::any_of(trials.begin(), trials.end(), [&](const Trial& trial) {
+    return std::any_of(trial.measured.begin(), trial.measured.end(),
+                       [&](const Measured& channel) { return channel.sensor == sensor; });
+  });
+}
+
+bool is_fixed_body(const model::Skeleton& skeleton, const std::string& name) {
+  for (const model::Joint& joint : skeleton.joints) {
+    if (skeleton.bodies[static_cast<std::size_t>(joint.child)].name == name) {
+      return joint.type == model::JointType::fixed && joint.parent < 0;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
+                                       const std::vector<FreeParameter>& parameters, const Estimate& estimate) {
+  const model::Model& model = pool.model();
+  model::Plant plant(model, {});
+  PlaceMotions motions(pool, parameters, estimate);
+  std::vector<Candidate> candidates;
+  for (const auto& law : catalogue.laws()) {
+    Place place = Place::coordinate;
+    for (const auto& [at, same] : joined_places(plant, *law, &place)) {
+      place = model.resolve(*law, at);
+      if (place == Place::sensor && !is_measured(pool.data().trials, at)) {
+        continue;
+      }
+      if (place == Place::body && is_fixed_body(model.skeleton, at)) {
+        continue;
+      }
+      Candidate candidate{law, place, at, same, {}};
+      if (place == Place::coordinate || place == Place::motor || place == Place::ratio) {
+        candidate.scales = motions.at(place, at);
+      } else if (place == Place::sensor) {
+        const model::Sensor& sensor = *model.find_sensor(at);
+        candidate.scales = motions.at(Place::coordinate, sensor.measures);
+      } else if (place == Place::body) {
+        candidate.scales.inertia = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(at))].mass;
+        candidate.scales.position = 0.1;
+      }
+      candidates.push_back(std::move(candidate));
+    }
+  }
+  return candidates;
+}
+
+model::EffectUse make_use(const Candidate& candidate, const effects::Values& values) {
+  model::EffectUse use;
+  use.law = candidate.law;
+  use.at = candidate.at;
+  for (const double value : values) {
+    model::Quantity quantity;
+    quantity.value = value;
+    use.values.push_back(quantity);
+  }
+  return use;
+}
+
+std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
+                                              const effects::Scales& scales, bool angular) {
+  std::vector<FreeParameter> free;
+  const effects::Declaration& declaration = use.law->declaration();
+  const effects::Values typical = use.law->typical(scales);
+  for (std::size_t p = 0; p < declaration.parameters.size(); ++p) {
+    const effects::Parameter& parameter = declaration.parameters[p];
+    if (parameter.structural) {
+      continue;
+    }
+    free.push_back({{effect, static_cast<int>(p)},
+                    declaration.name + "@" + use.at + ":" + parameter.name,
+                    effects::unit_at(parameter.unit, angular),
+                    parameter.scale,
+                    parameter.lower,
+                    parameter.upper,
+                    typical[p]});
+  }
+  return free;
+}
+
+std::vector<FreeParameter> stated_parameters(const model::Model& model, double width) {
+  std::vector<FreeParameter> free;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const model::EffectUse& use = model.effects[e];
+    const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
+    for (FreeParameter& parameter : free_parameters_of(use, static_cast<int>(e), {}, angular)) {
+      const model::Quantity& quantity = use.values[static_cast<std::size_t>(parameter.id.parameter)];
+      if (quantity.uncertainty <= 0.0) {
+        continue;
+      }
+      parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
+      parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
+      parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
+      free.push_back(parameter);
+    }
+  }
+  return free;
+}
+
+Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const model::ParameterId id = parameters[p].id;
+    theta[static_cast<Eigen::Index>(p)] = model.effects[static_cast<std::size_t>(id.effect)]
+                                              .values[static_cast<std::size_t>(id.parameter)]
+                                              .value;
+  }
+  return theta;
+}
+
+model::Model with_values(model::Model model, const std::vector<FreeParameter>& parameters,
+                         const Eigen::VectorXd& theta) {
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const model::ParameterId id = parameters[p].id;
+    model.effects[static_cast<std::size_t>(id.effect)].values[static_cast<std::size_t>(id.parameter)].value =
+        theta[static_cast<Eigen::Index>(p)];
+  }
+  return model;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,44 @@
+// Every (effect, place) that a model could be missing.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "validation/predict/estimate.h"
+
+namespace plumbline::validation {
+
+struct Candidate {
+  std::shared_ptr<const effects::Law> law;
+  effects::Place place = effects::Place::coordinate;
+  std::string at;
+  std::vector<std::string> same_places;  ///< rigidly tied to `at`: the law there is the same law
+  effects::Scales scales;                ///< typical magnitudes at the place
+  std::string label() const { return law->declaration().name + "@" + at; }
+};
+
+/// All laws at all their places that the trials can move. Force laws at places that the rigid drivetrain
+/// ties together (motor and its coordinate) are one candidate, named by the motor.
+/// `estimate` gives the motion of the train windows under the model.
+std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
+                                       const std::vector<FreeParameter>& parameters, const Estimate& estimate);
+
+/// A use of the candidate's law with these values.
+model::EffectUse make_use(const Candidate& candidate, const effects::Values& values);
+
+/// The law's parameters that a fit may move, for the effect at index `effect` of a model.
+std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
+                                              const effects::Scales& scales, bool angular);
+
+/// The model's own free parameters: those of its effects that state an uncertainty, within `width` standard
+/// deviations of the stated value and the law's bounds.
+std::vector<FreeParameter> stated_parameters(const model::Model& model, double width);
+
+Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters);
+
+/// The model with the parameters set.
+model::Model with_values(model::Model model, const std::vector<FreeParameter>& parameters,
+                         const Eigen::VectorXd& theta);
+
+}  // namespace plumbline::validation

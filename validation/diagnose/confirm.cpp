@@ -1,0 +1,214 @@
+#include "validation/diagnose/confirm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <Eigen/LU>
+
+namespace plumbline::validation {
+namespace {
+
+/// The candidate's start plus the promised step, within bounds.
+Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypothesis) {
+  const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
+  Eigen::VectorXd theta = extended.theta;
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    const FreeParameter& parameter = extended.parameters[static_cast<std::size_t>(p)];
+    const double search = to_search(parameter.scale, theta[p]) + units[p] * hypothesis.step[p];
+    const double value = from_search(parameter.scale, search);
+    if (std::isfinite(value)) {
+      theta[p] = std::clamp(value, parameter.lower, parameter.upper);
+    }
+  }
+  return theta;
+}
+
+Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis, const Data& data,
+                int iterations) {
+  Refit result;
+  result.candidate = hypothesis.candidate;
+  result.extended = extend(stage, candidate, hypothesis.start);
+  result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());
+  const Eigen::VectorXd theta = promised_theta(result.extended, hypothesis);
+  // The promised values decide whether states are added, so the model must hold them before it is built.
+  result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
+  PredictorPool pool(result.extended.model, data);
+  result.estimate = estimate(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 1e-4});
+  result.extended.theta = result.estimate.theta;
+  return result;
+}
+
+void continue_refit(Refit& refit, const Data& data, int iterations) {
+  PredictorPool pool(refit.extended.model, data);
+  refit.estimate = estimate(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
+                            {iterations, 1e-5});
+  refit.extended.theta = refit.estimate.theta;
+}
+
+/// Squared scores from per-window squares weighted by how often each window was drawn.
+double drawn_square(const Data& data, const std::vector<Eigen::VectorXd>& square,
+                    const std::vector<int>& times) {
+  std::vector<Eigen::VectorXd> weighted = square;
+  for (std::size_t w = 0; w < square.size(); ++w) {
+    weighted[w] = square[w] * static_cast<double>(times[w]);
+  }
+  const Scores scores = score(data, weighted);
+  return scores.train * scores.train + scores.held_out * scores.held_out;
+}
+
+/// How often each window is drawn: with replacement within each role's windows.
+std::vector<int> draw(const Data& data, std::mt19937_64& random) {
+  std::vector<int> times(data.windows.size(), 0);
+  for (const Role role : {Role::train, Role::held_out}) {
+    const std::vector<int> windows = data.windows_of(role);
+    if (windows.empty()) {
+      continue;
+    }
+    std::uniform_int_distribution<std::size_t> pick(0, windows.size() - 1);
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      ++times[static_cast<std::size_t>(windows[pick(random)])];
+    }
+  }
+  return times;
+}
+
+bool on_bound(const FreeParameter& parameter, double value) {
+  const double reach = 1e-3 * std::max({parameter.typical, std::abs(value), 1e-12});
+  return value - parameter.lower < reach || parameter.upper - value < reach;
+}
+
+/// Change of the candidate's own parameters that the held-out windows alone would ask for, relative.
+double disagreement(const Refit& refit, const Data& data) {
+  const std::vector<int> windows = data.windows_of(Role::held_out);
+  if (windows.empty()) {
+    return 0.0;
+  }
+  const auto n = static_cast<Eigen::Index>(refit.extended.parameters.size());
+  const std::vector<FreeParameter> own(refit.extended.parameters.end() - refit.own,
+                                       refit.extended.parameters.end());
+  const Eigen::VectorXd theta = refit.estimate.theta;
+  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, theta), data);
+  const Eigen::VectorXd units = search_units(own, theta.tail(refit.own));
+  const std::vector<Reduced> reduced =
+      reduce(pool, windows, own, theta.tail(refit.own), refit.estimate.x0, units);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(refit.own, refit.own);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(refit.own);
+  for (const Reduced& one : reduced) {
+    H += one.H;
+    g += one.g;
+  }
+  (void)n;
+  // Along the best-determined direction of the law: how strong the held-out motion wants the whole law.
+  Eigen::VectorXd direction(refit.own);
+  for (int p = 0; p < refit.own; ++p) {
+    const double t = theta[n - refit.own + p];
+    direction[p] = to_search(own[static_cast<std::size_t>(p)].scale, t) / units[p];
+  }
+  const double curvature = direction.dot(H * direction);
+  return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
+}
+
+}  // namespace
+
+std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
+                         const std::vector<Hypothesis>& hypotheses, const Data& data,
+                         const DiagnoseOptions& options, const Progress& progress) {
+  std::vector<const Hypothesis*> chosen;
+  std::map<int, int> starts_of;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (static_cast<int>(chosen.size()) >= options.refits) {
+      break;
+    }
+    if (starts_of[hypothesis.candidate]++ == 0) {
+      chosen.push_back(&hypothesis);
+    }
+  }
+  std::vector<Refit> refits;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(chosen[i]->candidate)];
+    progress("refitting " + candidate.label(), static_cast<double>(i) / static_cast<double>(chosen.size()));
+    try {
+      refits.push_back(refit_one(stage, candidate, *chosen[i], data, 4));
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+  }
+  std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  for (Refit& one : refits) {
+    if (!one.estimate.converged && one.square() < 1.3 * refits.front().square() + 0.1) {
+      progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
+      continue_refit(one, data, 12);
+    }
+  }
+  std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  return refits;
+}
+
+std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+                                    const DiagnoseOptions& options) {
+  std::mt19937_64 random(options.seed);
+  std::vector<double> shares(refits.size() + 1, 0.0);
+  const double keep = (1.0 - options.material) * (1.0 - options.material);
+  for (int r = 0; r < options.resamples; ++r) {
+    const std::vector<int> times = draw(data, random);
+    double best = keep * drawn_square(data, stage.estimate.square, times);
+    std::size_t winner = refits.size();
+    for (std::size_t i = 0; i < refits.size(); ++i) {
+      const double square = drawn_square(data, refits[i].estimate.square, times);
+      if (square < best) {
+        best = square;
+        winner = i;
+      }
+    }
+    shares[winner] += 1.0 / options.resamples;
+  }
+  return shares;
+}
+
+double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options) {
+  std::mt19937_64 random(options.seed);
+  double share = 0.0;
+  for (int r = 0; r < options.resamples; ++r) {
+    const std::vector<int> times = draw(data, random);
+    if (drawn_square(data, other.estimate.square, times) < drawn_square(data, best.estimate.square, times)) {
+      share += 1.0 / options.resamples;
+    }
+  }
+  return share;
+}
+
+std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
+                      const DiagnoseOptions& options) {
+  const Scores& before = stage.estimate.scores;
+  const Scores& after = refit.estimate.scores;
+  const bool judged = data.has(Role::held_out);
+  const double fall = judged ? 1.0 - after.held_out / before.held_out : 1.0 - after.train / before.train;
+  const auto percent = [](double value) { return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %"; };
+  if (fall < options.material) {
+    return std::string("immaterial: ") + (judged ? "held-out" : "train") + " error falls by only " + percent(fall);
+  }
+  if (judged && 1.0 - after.train / before.train < 0.5 * options.material) {
+    return "train error hardly falls";
+  }
+  if (share < options.stable) {
+    return "unstable: chosen in only " + percent(share) + " of the resamples";
+  }
+  for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
+       p < refit.extended.parameters.size(); ++p) {
+    const FreeParameter& parameter = refit.extended.parameters[p];
+    const double value = refit.estimate.theta[static_cast<Eigen::Index>(p)];
+    if (refit.own == 1 && on_bound(parameter, value)) {
+      return "unphysical: " + parameter.label + " is at its bound";
+    }
+  }
+  const double apart = disagreement(refit, data);
+  if (apart > options.consistent) {
+    return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+  }
+  return "";
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,39 @@
+// Nested refits of the best candidates, and the judgement of what they bring.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+
+/// A candidate refitted nonlinearly on the train windows.
+struct Refit {
+  int candidate = 0;
+  Extended extended;
+  Estimate estimate;
+  int own = 0;  ///< number of the candidate's own parameters (the last ones)
+  double square() const {
+    return estimate.scores.train * estimate.scores.train + estimate.scores.held_out * estimate.scores.held_out;
+  }
+};
+
+/// Refits the best hypotheses: a short refit of all, a full one of those that stay near the best.
+std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
+                         const std::vector<Hypothesis>& hypotheses, const Data& data,
+                         const DiagnoseOptions& options, const Progress& progress);
+
+/// For each refit the share of block resamples (windows drawn with replacement) in which it is the best; the
+/// stage itself stands for "none" and wins unless a refit is material. Last entry: the share of "none".
+std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+                                    const DiagnoseOptions& options);
+
+/// Share of resamples in which `other` predicts better than `best`.
+double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options);
+
+/// Empty when the refit may be accepted, otherwise the reason in a few words.
+std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
+                      const DiagnoseOptions& options);
+
+}  // namespace plumbline::validation

@@ -1,0 +1,328 @@
+#include "validation/diagnose/diagnose.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/trace/error.h"
+#include "validation/diagnose/confirm.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// The error that counts: held-out where there is one.
+double judged(const Scores& scores, const Data& data) {
+  return data.has(Role::held_out) ? scores.held_out : scores.train;
+}
+
+bool at_floor(const Scores& scores, const Data& data, const DiagnoseOptions& options) {
+  return judged(scores, data) < options.at_floor && scores.train < options.at_floor;
+}
+
+/// Candidates in order of promise, refitted ones first with what they reached.
+std::vector<RankRow> rank(const std::vector<Candidate>& candidates, const std::vector<Hypothesis>& hypotheses,
+                          const std::vector<Refit>& refits) {
+  std::vector<RankRow> rows;
+  std::vector<bool> done(candidates.size(), false);
+  for (const Refit& refit : refits) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(refit.candidate)];
+    done[static_cast<std::size_t>(refit.candidate)] = true;
+    rows.push_back({candidate.law->declaration().name, candidate.at, refit.square(),
+                    refit.estimate.scores.held_out, refit.estimate.scores.train, true, ""});
+  }
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const auto c = static_cast<std::size_t>(hypothesis.candidate);
+    if (!done[c]) {
+      done[c] = true;
+      rows.push_back({candidates[c].law->declaration().name, candidates[c].at, hypothesis.promised(),
+                      std::sqrt(hypothesis.promised_held_out), std::sqrt(hypothesis.promised_train), false, ""});
+    }
+  }
+  return rows;
+}
+
+/// Refits that these data cannot tell from the best: they win in a fair share of resamples, or differ from
+/// it by less than a hundredth of what it explains.
+std::vector<std::size_t> tied_with_best(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+                                        const DiagnoseOptions& options) {
+  std::vector<std::size_t> tied;
+  const Scores& before = stage.estimate.scores;
+  const double start = before.train * before.train + before.held_out * before.held_out;
+  for (std::size_t i = 0; i < refits.size(); ++i) {
+    const double explained = start - refits.front().square();
+    const bool close = refits[i].square() - refits.front().square() < 0.01 * explained;
+    if (i == 0 || close || share_better(refits[i], refits.front(), data, options) > 0.05) {
+      tied.push_back(i);
+    }
+  }
+  return tied;
+}
+
+class Diagnoser {
+ public:
+  Diagnoser(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
+            const Progress& progress)
+      : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
+
+  void run(const model::Model& model, Diagnosis& diagnosis) {
+    start(model, diagnosis);
+    const Scores base = diagnosis.final_stage.estimate.scores;
+    for (int round = 0; round < options_.most_effects; ++round) {
+      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
+        break;
+      }
+    }
+    drop_superfluous(diagnosis);
+    conclude(base, diagnosis);
+  }
+
+  void conclude(const Scores& base, Diagnosis& diagnosis) const {
+    const double before = judged(base, data_);
+    const double after = judged(diagnosis.final_stage.estimate.scores, data_);
+    const double excess = before * before - 1.0;
+    diagnosis.unexplained_share =
+        excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
+    if (!diagnosis.accepted.empty()) {
+      diagnosis.verdict = Verdict::missing;
+    } else {
+      diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
+    }
+    if (diagnosis.verdict == Verdict::nothing_missing) {
+      diagnosis.unexplained_share = 0.0;
+    }
+  }
+
+ private:
+  void start(const model::Model& model, Diagnosis& diagnosis) {
+    progress_("the model as given", 0.0);
+    Stage& stage = diagnosis.final_stage;
+    stage.model = model;
+    PredictorPool pool(model, data_);
+    const Estimate given = estimate(pool, {}, Eigen::VectorXd(), {}, {6, 1e-4});
+    diagnosis.ladder.push_back({"as given", given.scores.train, given.scores.held_out});
+    stage.parameters = stated_parameters(model, options_.parameter_width);
+    stage.estimate = given;
+    if (!stage.parameters.empty()) {
+      progress_("the model's own parameters", 0.5);
+      stage.estimate =
+          estimate(pool, stage.parameters, values_of(model, stage.parameters), given.x0, {8, 1e-5});
+      diagnosis.ladder.push_back(
+          {"own parameters fitted", stage.estimate.scores.train, stage.estimate.scores.held_out});
+    }
+  }
+
+  bool step(Diagnosis& diagnosis, int round) {
+    Stage& stage = diagnosis.final_stage;
+    std::vector<Candidate> candidates;
+    {
+      PredictorPool pool(stage.model, data_);
+      candidates = list_candidates(pool, catalogue_, stage.parameters, stage.estimate);
+    }
+    const std::vector<Hypothesis> hypotheses = screen(stage, candidates, data_, progress_);
+    const std::vector<Refit> refits = refit(stage, candidates, hypotheses, data_, options_, progress_);
+    diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(hypotheses.size()));
+    std::vector<RankRow> rows = rank(candidates, hypotheses, refits);
+    const bool accepted = !refits.empty() && judge(candidates, refits, rows, diagnosis);
+    if (round == 0) {
+      diagnosis.ranking = rows;
+    }
+    diagnosis.leads.clear();
+    for (const RankRow& row : rows) {
+      if (row.refitted && !row.remark.empty()) {
+        diagnosis.leads.push_back(row);
+      }
+    }
+    return accepted;
+  }
+
+  /// Takes the best refit if nothing speaks against it; of those tied with it, the one with the fewest
+  /// parameters is named and the others of its size are its rivals.
+  bool judge(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
+             std::vector<RankRow>& rows, Diagnosis& diagnosis) const {
+    const Stage& stage = diagnosis.final_stage;
+    const std::vector<double> shares = selected_shares(stage, refits, data_, options_);
+    const std::vector<std::size_t> tied = tied_with_best(stage, refits, data_, options_);
+    double share = 0.0;
+    std::size_t named = tied.front();
+    for (const std::size_t i : tied) {
+      share += shares[i];
+      if (refits[i].own < refits[named].own) {
+        named = i;
+      }
+    }
+    for (std::size_t i = 0; i < refits.size(); ++i) {
+      rows[i].remark = objection(stage, refits[i], i == named ? share : 1.0, data_, options_);
+    }
+    if (!rows[named].remark.empty()) {
+      // The smallest of the set may fail where a larger law does not.
+      for (const std::size_t i : tied) {
+        if (rows[i].remark.empty() && share >= options_.stable) {
+          named = i;
+          break;
+        }
+      }
+    }
+    if (!rows[named].remark.empty()) {
+      return false;
+    }
+    accept(candidates, refits, tied, named, share, diagnosis);
+    return true;
+  }
+
+  void accept(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
+              const std::vector<std::size_t>& tied, std::size_t named, double share,
+              Diagnosis& diagnosis) const {
+    const Refit& refit = refits[named];
+    const Candidate& candidate = candidates[static_cast<std::size_t>(refit.candidate)];
+    Finding finding;
+    finding.effect = candidate.law->declaration().name;
+    finding.at = candidate.at;
+    finding.equation = candidate.law->declaration().equation;
+    finding.selected_share = share;
+    const Scores before = diagnosis.final_stage.estimate.scores;
+    finding.train_before = before.train;
+    finding.held_out_before = before.held_out;
+    finding.train_after = refit.estimate.scores.train;
+    finding.held_out_after = refit.estimate.scores.held_out;
+    for (const std::string& same : candidate.same_places) {
+      finding.rivals.push_back({finding.effect, same});
+    }
+    for (const std::size_t i : tied) {
+      if (i != named && refits[i].own <= refit.own) {
+        const Candidate& rival = candidates[static_cast<std::size_t>(refits[i].candidate)];
+        finding.rivals.push_back({rival.law->declaration().name, rival.at});
+      }
+    }
+    diagnosis.final_stage = {with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
+                             refit.extended.parameters, refit.estimate};
+    PredictorPool pool(diagnosis.final_stage.model, data_);
+    const Eigen::VectorXd deviations =
+        parameter_deviations(pool, refit.extended.parameters, refit.estimate, nullptr);
+    for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
+         p < refit.extended.parameters.size(); ++p) {
+      const auto i = static_cast<Eigen::Index>(p);
+      const std::string& label = refit.extended.parameters[p].label;
+      finding.parameters.push_back({label.substr(label.find(':') + 1), refit.extended.parameters[p].unit,
+                                    refit.estimate.theta[i], deviations[i]});
+    }
+    diagnosis.accepted.push_back(finding);
+    diagnosis.ladder.push_back(
+        {"+ " + candidate.label(), refit.estimate.scores.train, refit.estimate.scores.held_out});
+  }
+
+  /// An early guess that the later ones make superfluous is dropped again.
+  void drop_superfluous(Diagnosis& diagnosis) const {
+    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
+      Stage& stage = diagnosis.final_stage;
+      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
+      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
+      Stage without = without_effect(stage, effect);
+      PredictorPool pool(without.model, data_);
+      without.estimate = estimate(pool, without.parameters, values_of(without.model, without.parameters), {},
+                                  {10, 1e-5});
+      const double rise =
+          judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
+      if (rise < options_.material) {
+        diagnosis.ladder.push_back({"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at,
+                                    without.estimate.scores.train, without.estimate.scores.held_out});
+        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
+        stage = without;
+      } else {
+        ++i;
+      }
+    }
+  }
+
+  static Stage without_effect(const Stage& stage, int effect) {
+    Stage without = stage;
+    without.model.effects.erase(without.model.effects.begin() + effect);
+    without.parameters.clear();
+    for (FreeParameter parameter : stage.parameters) {
+      if (parameter.id.effect == effect) {
+        continue;
+      }
+      parameter.id.effect -= parameter.id.effect > effect ? 1 : 0;
+      without.parameters.push_back(parameter);
+    }
+    return without;
+  }
+
+  const effects::Catalogue& catalogue_;
+  const Data& data_;
+  const DiagnoseOptions& options_;
+  const Progress& progress_;
+};
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::missing:
+      return "missing";
+    case Verdict::nothing_missing:
+      return "nothing_missing";
+    case Verdict::unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Estimate& estimate, Eigen::MatrixXd* correlation) {
+  const Data& data = pool.data();
+  const std::vector<int> windows = data.windows_of(Role::train);
+  const Eigen::VectorXd units = search_units(parameters, estimate.theta);
+  const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
+  for (const Reduced& one : reduced) {
+    H += one.H;
+    G += one.g * one.g.transpose();
+  }
+  // Never below what white residuals of the present size would give.
+  double sse = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const auto w = static_cast<std::size_t>(windows[i]);
+    sse += reduced[i].sse;
+    count += static_cast<double>(data.windows[w].count) * static_cast<double>(estimate.square[w].size());
+  }
+  H.diagonal() *= 1.0 + 1e-12;
+  const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
+  const double m = static_cast<double>(windows.size());
+  const Eigen::MatrixXd sandwich = inverse * G * inverse * (m / std::max(1.0, m - static_cast<double>(n)));
+  const Eigen::MatrixXd white = inverse * (sse / std::max(1.0, count));
+  Eigen::VectorXd deviations(n);
+  for (Eigen::Index p = 0; p < n; ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double search = std::sqrt(std::max({sandwich(p, p), white(p, p), 0.0})) * units[p];
+    deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
+  }
+  if (correlation != nullptr) {
+    const Eigen::VectorXd scale = inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    *correlation = scale.asDiagonal() * inverse * scale.asDiagonal();
+  }
+  return deviations;
+}
+
+Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                   const DiagnoseOptions& options, const Progress& progress) {
+  if (!data.has(Role::train)) {
+    throw InputError("found no trial with role: train, expected at least one");
+  }
+  Diagnosis diagnosis;
+  Diagnoser diagnoser(catalogue, data, options, progress);
+  try {
+    diagnoser.run(model, diagnosis);
+  } catch (const Stopped&) {
+    diagnosis.interrupted = true;
+    if (!diagnosis.ladder.empty()) {
+      const Rung& first = diagnosis.ladder.front();
+      diagnoser.conclude({first.train, first.held_out}, diagnosis);
+    }
+  }
+  return diagnosis;
+}
+
+}  // namespace plumbline::validation

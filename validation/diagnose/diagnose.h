@@ -1,0 +1,82 @@
+// Which effect is missing, where, and how sure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/diagnose/screen.h"
+
+namespace plumbline::validation {
+
+struct DiagnoseOptions {
+  int most_effects = 4;            ///< rounds of acceptance
+  int refits = 6;                  ///< candidates that are refitted in each round
+  double material = 0.05;          ///< least relative fall of the held-out error
+  double stable = 0.7;             ///< least share of resamples that choose the effect (or a rival)
+  double at_floor = 1.05;          ///< error at which nothing is left to explain
+  double consistent = 0.35;        ///< relative disagreement of a parameter between train and held-out
+  double parameter_width = 2.0;    ///< stated standard deviations that the model's own parameters may move
+  int resamples = 400;
+  unsigned seed = 1;
+};
+
+struct ParameterValue {
+  std::string name, unit;
+  double value = 0.0;
+  double deviation = 0.0;  ///< one standard deviation, from the spread between windows
+};
+
+struct Named {
+  std::string effect, at;
+};
+
+/// One accepted effect.
+struct Finding {
+  std::string effect, at;
+  std::vector<ParameterValue> parameters;
+  std::vector<Named> rivals;
+  double held_out_before = 0.0, held_out_after = 0.0;
+  double train_before = 0.0, train_after = 0.0;
+  double selected_share = 0.0;
+  std::string equation;
+};
+
+struct RankRow {
+  std::string effect, at;
+  double score = 0.0;           ///< mean square of train and held-out together with this effect added, floor units
+  double held_out_after = 0.0;
+  double train_after = 0.0;
+  bool refitted = false;        ///< false: promised by the linearisation only
+  std::string remark;           ///< why it was not accepted
+};
+
+struct Rung {
+  std::string name;  ///< "as given", "own parameters fitted", "+ coulomb@drive"
+  double train = 0.0, held_out = 0.0;
+};
+
+enum class Verdict { missing, nothing_missing, unexplained };
+std::string to_string(Verdict verdict);
+
+struct Diagnosis {
+  Verdict verdict = Verdict::nothing_missing;
+  std::vector<Finding> accepted;
+  std::vector<RankRow> ranking;  ///< of the first round in which something was looked for
+  std::vector<RankRow> leads;    ///< refitted but not accepted in the last round
+  std::vector<Rung> ladder;
+  double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
+  int candidates = 0;              ///< hypotheses screened
+  bool interrupted = false;
+  Stage final_stage;               ///< model with everything accepted, its parameters and estimate
+};
+
+/// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.
+Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                   const DiagnoseOptions& options, const Progress& progress);
+
+/// Standard deviations of parameters from the windows' own scatter (sandwich estimate over windows), so that
+/// correlated residuals within a window do not make them too small.
+Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Estimate& estimate, Eigen::MatrixXd* correlation);
+
+}  // namespace plumbline::validation

@@ -1,0 +1,247 @@
+#include "validation/diagnose/screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/diagnose/box_least_squares.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// A law that can be linearised at its null value: it brings no state and no coordinate.
+bool has_tangent(const Candidate& candidate, const effects::Values& start) {
+  return candidate.place != effects::Place::ratio && candidate.law->state_count() == 0 &&
+         candidate.law->is_null(start.data());
+}
+
+struct Bounds {
+  Eigen::VectorXd lower, upper;
+};
+
+/// Room that each parameter has, in search units from where it is.
+Bounds room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+            const Eigen::VectorXd& units) {
+  Bounds b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = to_search(parameter.scale, theta[p]);
+    const double one = (to_search(parameter.scale, parameter.lower) - here) / units[p];
+    const double two = (to_search(parameter.scale, parameter.upper) - here) / units[p];
+    b.lower[p] = std::min({one, two, 0.0});
+    b.upper[p] = std::max({one, two, 0.0});
+  }
+  return b;
+}
+
+struct Sum {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+  double sse = 0.0;
+  double samples = 0.0;
+};
+
+Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows, const Data& data, Role role) {
+  Sum sum;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const auto w = static_cast<std::size_t>(windows[i]);
+    if (data.role(w) != role) {
+      continue;
+    }
+    if (sum.H.size() == 0) {
+      sum.H = Eigen::MatrixXd::Zero(reduced[i].H.rows(), reduced[i].H.cols());
+      sum.g = Eigen::VectorXd::Zero(reduced[i].g.size());
+    }
+    sum.H += reduced[i].H;
+    sum.g += reduced[i].g;
+    sum.sse += reduced[i].sse;
+    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
+    sum.samples += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
+  }
+  return sum;
+}
+
+double promised_square(const Sum& sum, const std::vector<Eigen::Index>& chosen, const Eigen::VectorXd& d) {
+  if (sum.samples == 0.0) {
+    return 0.0;
+  }
+  double cost = sum.sse;
+  for (std::size_t a = 0; a < chosen.size(); ++a) {
+    cost -= 2.0 * sum.g[chosen[a]] * d[static_cast<Eigen::Index>(a)];
+    for (std::size_t b = 0; b < chosen.size(); ++b) {
+      cost += d[static_cast<Eigen::Index>(a)] * sum.H(chosen[a], chosen[b]) * d[static_cast<Eigen::Index>(b)];
+    }
+  }
+  // The floor is what the sensors leave: a linearised promise below it is no better than the floor.
+  return std::max(cost / sum.samples, 0.9);
+}
+
+/// Solves for the chosen columns on the train windows; the promise is judged on both roles.
+Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Bounds& bounds) {
+  const auto n = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd H(n, n);
+  Eigen::VectorXd g(n);
+  Eigen::VectorXd lower(n);
+  Eigen::VectorXd upper(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const Eigen::Index i = chosen[static_cast<std::size_t>(a)];
+    g[a] = train.g[i];
+    lower[a] = bounds.lower[i];
+    upper[a] = bounds.upper[i];
+    for (Eigen::Index b = 0; b < n; ++b) {
+      H(a, b) = train.H(i, chosen[static_cast<std::size_t>(b)]);
+    }
+  }
+  return box_least_squares(H, g, lower, upper);
+}
+
+bool moves_prediction(const Sum& train, const std::vector<Eigen::Index>& own) {
+  return std::any_of(own.begin(), own.end(), [&](Eigen::Index i) {
+    return train.H(i, i) > 1e-6 && std::isfinite(train.H(i, i));
+  });
+}
+
+/// Windows for the costly starts: enough to tell, spread over the trials.
+std::vector<int> thinned(const Data& data) {
+  std::vector<int> chosen;
+  const std::size_t stride = data.windows.size() > 16 ? 2 : 1;
+  for (std::size_t w = 0; w < data.windows.size(); w += stride) {
+    chosen.push_back(static_cast<int>(w));
+  }
+  return chosen;
+}
+
+std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Candidate>& candidates,
+                                        const std::vector<Hypothesis>& all, const Data& data) {
+  // One model with every candidate in it at its null value: it predicts as the stage does, and one
+  // linearisation serves them all.
+  model::Model model = stage.model;
+  std::vector<FreeParameter> parameters = stage.parameters;
+  std::vector<std::vector<Eigen::Index>> own(all.size());
+  for (std::size_t h = 0; h < all.size(); ++h) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(all[h].candidate)];
+    model.effects.push_back(make_use(candidate, all[h].start));
+    const bool angular = model.place_is_angular(candidate.place, candidate.at);
+    for (FreeParameter& parameter :
+         free_parameters_of(model.effects.back(), static_cast<int>(model.effects.size()) - 1, candidate.scales,
+                            angular)) {
+      own[h].push_back(static_cast<Eigen::Index>(parameters.size()));
+      parameters.push_back(std::move(parameter));
+    }
+  }
+  std::vector<int> windows(data.windows.size());
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    windows[w] = static_cast<int>(w);
+  }
+  Eigen::VectorXd theta = values_of(model, parameters);
+  theta.head(stage.estimate.theta.size()) = stage.estimate.theta;
+  const Eigen::VectorXd units = search_units(parameters, theta);
+  PredictorPool pool(model, data);
+  const std::vector<Reduced> reduced = reduce(pool, windows, parameters, theta, stage.estimate.x0, units);
+  const Sum train = sum_of(reduced, windows, data, Role::train);
+  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
+  const Bounds bounds = room(parameters, theta, units);
+  std::vector<Hypothesis> found;
+  for (std::size_t h = 0; h < all.size(); ++h) {
+    if (!moves_prediction(train, own[h])) {
+      continue;
+    }
+    std::vector<Eigen::Index> chosen;
+    for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+      chosen.push_back(static_cast<Eigen::Index>(p));
+    }
+    chosen.insert(chosen.end(), own[h].begin(), own[h].end());
+    Hypothesis hypothesis = all[h];
+    hypothesis.step = solve_chosen(train, chosen, bounds);
+    hypothesis.promised_train = promised_square(train, chosen, hypothesis.step);
+    hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step);
+    hypothesis.x0.resize(data.windows.size());
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+      Eigen::VectorXd x = stage.estimate.x0[w] + reduced[w].x_shift;
+      for (std::size_t a = 0; a < chosen.size(); ++a) {
+        x -= reduced[w].x_slope.col(chosen[a]) * hypothesis.step[static_cast<Eigen::Index>(a)];
+      }
+      hypothesis.x0[w] = x;
+    }
+    found.push_back(std::move(hypothesis));
+  }
+  return found;
+}
+
+void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
+                  const Data& data, const std::vector<int>& windows) {
+  const Extended extended =
+      extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
+  PredictorPool pool(extended.model, data);
+  const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
+  const std::vector<Eigen::VectorXd> measured(data.windows.size());
+  const std::vector<Reduced> reduced =
+      reduce(pool, windows, extended.parameters, extended.theta, measured, units);
+  const Sum train = sum_of(reduced, windows, data, Role::train);
+  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
+  std::vector<Eigen::Index> chosen(extended.parameters.size());
+  for (std::size_t p = 0; p < chosen.size(); ++p) {
+    chosen[p] = static_cast<Eigen::Index>(p);
+  }
+  Bounds bounds = room(extended.parameters, extended.theta, units);
+  // A linearisation far from null is trusted for about a factor of two.
+  for (Eigen::Index p = static_cast<Eigen::Index>(stage.parameters.size()); p < units.size(); ++p) {
+    bounds.lower[p] = std::max(bounds.lower[p], -1.0);
+    bounds.upper[p] = std::min(bounds.upper[p], 1.0);
+  }
+  hypothesis.step = solve_chosen(train, chosen, bounds);
+  hypothesis.promised_train = promised_square(train, chosen, hypothesis.step);
+  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step);
+}
+
+}  // namespace
+
+Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values) {
+  Extended extended{with_values(stage.model, stage.parameters, stage.estimate.theta), stage.parameters, {}};
+  extended.model.effects.push_back(make_use(candidate, values));
+  const bool angular = stage.model.place_is_angular(candidate.place, candidate.at);
+  for (FreeParameter& parameter :
+       free_parameters_of(extended.model.effects.back(), static_cast<int>(extended.model.effects.size()) - 1,
+                          candidate.scales, angular)) {
+    extended.parameters.push_back(std::move(parameter));
+  }
+  extended.theta = values_of(extended.model, extended.parameters);
+  return extended;
+}
+
+std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                               const Progress& progress) {
+  std::vector<Hypothesis> tangents;
+  std::vector<Hypothesis> starts;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    for (const effects::Values& start : candidates[c].law->starts(candidates[c].scales)) {
+      Hypothesis hypothesis;
+      hypothesis.candidate = static_cast<int>(c);
+      hypothesis.start = start;
+      hypothesis.tangent = has_tangent(candidates[c], start);
+      (hypothesis.tangent ? tangents : starts).push_back(std::move(hypothesis));
+    }
+  }
+  progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
+  std::vector<Hypothesis> found = screen_tangents(stage, candidates, tangents, data);
+  const std::vector<int> windows = thinned(data);
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
+    progress("screening " + candidate.label(), static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
+    try {
+      screen_start(stage, candidates, starts[s], data, windows);
+      if (std::isfinite(starts[s].promised())) {
+        found.push_back(std::move(starts[s]));
+      }
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      continue;  // this start cannot be integrated on these trials: it is no explanation of them
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+  return found;
+}
+
+}  // namespace plumbline::validation

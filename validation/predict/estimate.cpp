@@ -1,0 +1,310 @@
+#include "validation/predict/estimate.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::validation {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Eigen::VectorXd values_of(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+                          const double* search) {
+  Eigen::VectorXd theta(units.size());
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    theta[p] = from_search(parameters[static_cast<std::size_t>(p)].scale, search[p] * units[p]);
+  }
+  return theta;
+}
+
+/// d(value)/d(scaled search) for each parameter.
+Eigen::VectorXd slopes_of(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+                          const Eigen::VectorXd& theta) {
+  Eigen::VectorXd slopes(units.size());
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    slopes[p] = search_slope(parameters[static_cast<std::size_t>(p)].scale, theta[p]) * units[p];
+  }
+  return slopes;
+}
+
+/// Residuals of one window and, behind them, how far its initial state is from what the sensors show.
+class WindowCost : public ceres::CostFunction {
+ public:
+  WindowCost(PredictorPool& pool, int window, const std::vector<FreeParameter>& parameters,
+             const Eigen::VectorXd& units, const Eigen::VectorXd& fixed)
+      : pool_(pool), window_(window), parameters_(parameters), units_(units), fixed_(fixed) {
+    pool_.with(window_, parameters_, fixed_, [&](Predictor& predictor) {
+      const Window& w = pool_.data().windows[static_cast<std::size_t>(window_)];
+      expected_ = predictor.initial_state(w);
+      spread_ = predictor.initial_spread(w);
+      rows_ = w.count * predictor.channels();
+    });
+    if (!parameters_.empty() && units_.size() > 0) {
+      mutable_parameter_block_sizes()->push_back(static_cast<int>(units_.size()));
+    }
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(expected_.size()));
+    set_num_residuals(static_cast<int>(rows_ + expected_.size()));
+  }
+
+  const Eigen::VectorXd& expected() const { return expected_; }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const bool free = units_.size() > 0;
+    const Eigen::VectorXd theta = free ? values_of(parameters_, units_, blocks[0]) : fixed_;
+    const Eigen::Map<const Eigen::VectorXd> x0(blocks[free ? 1 : 0], expected_.size());
+    if (!x0.allFinite() || theta.array().isNaN().any()) {
+      return false;
+    }
+    bool fine = true;
+    try {
+      pool_.with(window_, parameters_, theta, [&](Predictor& predictor) {
+        fine = fill(predictor, theta, x0, residuals, jacobians);
+      });
+    } catch (const Stopped&) {
+      return false;
+    } catch (const std::runtime_error&) {
+      return false;  // the integrator gave up: Ceres takes a shorter step
+    }
+    return fine;
+  }
+
+ private:
+  bool fill(Predictor& predictor, const Eigen::VectorXd& theta, const Eigen::VectorXd& x0, double* residuals,
+            double** jacobians) const {
+    const Window& w = pool_.data().windows[static_cast<std::size_t>(window_)];
+    const bool free = units_.size() > 0;
+    const Eigen::Index nx = expected_.size();
+    Eigen::Map<Eigen::VectorXd> r(residuals, rows_ + nx);
+    r.tail(nx) = (x0 - expected_).cwiseQuotient(spread_);
+    if (jacobians == nullptr) {
+      r.head(rows_) = predictor.residual(w, x0);
+      return r.allFinite();
+    }
+    const std::vector<FreeParameter> none;
+    const Linearisation lin = predictor.linearise(w, x0, free ? parameters_ : none);
+    r.head(rows_) = lin.r;
+    double* to_x = jacobians[free ? 1 : 0];
+    if (to_x != nullptr) {
+      Eigen::Map<Matrix> J(to_x, rows_ + nx, nx);
+      J.topRows(rows_) = -lin.Jx;
+      J.bottomRows(nx) = spread_.cwiseInverse().asDiagonal();
+    }
+    if (free && jacobians[0] != nullptr) {
+      Eigen::Map<Matrix> J(jacobians[0], rows_ + nx, units_.size());
+      J.setZero();
+      J.topRows(rows_) = -lin.Jp * slopes_of(parameters_, units_, theta).asDiagonal();
+    }
+    return r.allFinite();
+  }
+
+  PredictorPool& pool_;
+  int window_;
+  const std::vector<FreeParameter>& parameters_;
+  Eigen::VectorXd units_, fixed_, expected_, spread_;
+  Eigen::Index rows_ = 0;
+};
+
+ceres::Solver::Options solver_options(const PredictorPool& pool, const EstimateOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.num_threads = pool.data().threads;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.tolerance;
+  solver.logging_type = ceres::SILENT;
+  solver.initial_trust_region_radius = 1e6;
+  return solver;
+}
+
+void set_bounds(ceres::Problem& problem, double* block, const std::vector<FreeParameter>& parameters,
+                const Eigen::VectorXd& units) {
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    double a = to_search(parameter.scale, parameter.lower) / units[p];
+    double b = to_search(parameter.scale, parameter.upper) / units[p];
+    if (a > b) {
+      std::swap(a, b);  // a reciprocal turns the order round
+    }
+    block[p] = std::clamp(block[p], std::isfinite(a) ? a : -1e300, std::isfinite(b) ? b : 1e300);
+    if (std::isfinite(a)) {
+      problem.SetParameterLowerBound(block, static_cast<int>(p), a);
+    }
+    if (std::isfinite(b)) {
+      problem.SetParameterUpperBound(block, static_cast<int>(p), b);
+    }
+  }
+}
+
+/// Solves for theta (when units is not empty) and the initial states of the given windows.
+ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& windows,
+                             const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+                             Eigen::VectorXd& theta, std::vector<Eigen::VectorXd>& x0,
+                             const EstimateOptions& options) {
+  ceres::Problem problem;
+  Eigen::VectorXd search(units.size());
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    search[p] = to_search(parameters[static_cast<std::size_t>(p)].scale, theta[p]) / units[p];
+  }
+  auto order = std::make_shared<ceres::ParameterBlockOrdering>();
+  std::vector<std::unique_ptr<WindowCost>> costs(windows.size());
+  parallel_for(static_cast<int>(windows.size()), pool.data().threads, [&](int i) {
+    costs[static_cast<std::size_t>(i)] = std::make_unique<WindowCost>(pool, windows[static_cast<std::size_t>(i)],
+                                                                      parameters, units, theta);
+  });
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    Eigen::VectorXd& start = x0[static_cast<std::size_t>(windows[i])];
+    if (start.size() != costs[i]->expected().size()) {
+      start = costs[i]->expected();
+    }
+    std::vector<double*> blocks;
+    if (units.size() > 0) {
+      blocks.push_back(search.data());
+    }
+    blocks.push_back(start.data());
+    problem.AddResidualBlock(costs[i].release(), nullptr, blocks);
+    order->AddElementToGroup(start.data(), 0);
+  }
+  if (units.size() > 0) {
+    set_bounds(problem, search.data(), parameters, units);
+    order->AddElementToGroup(search.data(), 1);
+  }
+  ceres::Solver::Options solver = solver_options(pool, options);
+  if (units.size() > 0) {
+    solver.linear_solver_ordering = order;
+  } else {
+    solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (pool.data().stop != nullptr && pool.data().stop->raised) {
+    throw Stopped();
+  }
+  theta = units.size() > 0 ? values_of(parameters, units, search.data()) : theta;
+  return summary;
+}
+
+std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& x0) {
+  const Data& data = pool.data();
+  std::vector<Eigen::VectorXd> square(data.windows.size());
+  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    pool.with(w, parameters, theta, [&](Predictor& predictor) {
+      Eigen::VectorXd r;
+      try {
+        r = predictor.residual(data.windows[i], x0[i]);
+      } catch (const std::runtime_error&) {
+        r = Eigen::VectorXd::Constant(data.windows[i].count * predictor.channels(), 1e6);
+      }
+      const Eigen::Map<const Matrix> by_sample(r.data(), data.windows[i].count, predictor.channels());
+      square[i] = by_sample.colwise().squaredNorm().transpose();
+    });
+  });
+  return square;
+}
+
+}  // namespace
+
+Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta) {
+  Eigen::VectorXd units(static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = std::isfinite(theta[p]) && theta[p] != 0.0 ? std::abs(theta[p]) : 0.0;
+    switch (parameter.scale) {
+      case effects::Scale::logarithm:
+        units[p] = 1.0;
+        break;
+      case effects::Scale::reciprocal:
+        units[p] = 1.0 / (here > 0.0 ? here : parameter.typical);
+        break;
+      case effects::Scale::linear:
+        units[p] = std::max(here, parameter.typical);
+    }
+  }
+  return units;
+}
+
+Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
+  Scores scores;
+  for (const Role role : {Role::train, Role::held_out}) {
+    // Channels are those of each trial; a channel that several trials measure counts once for each.
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t t = 0; t < data.trials.size(); ++t) {
+      if (data.trials[t].role != role) {
+        continue;
+      }
+      Eigen::VectorXd total;
+      double samples = 0.0;
+      for (std::size_t w = 0; w < data.windows.size(); ++w) {
+        if (data.windows[w].trial == static_cast<int>(t)) {
+          total = total.size() == 0 ? square[w] : Eigen::VectorXd(total + square[w]);
+          samples += static_cast<double>(data.windows[w].count);
+        }
+      }
+      sum += total.sum() / std::max(samples, 1.0);
+      count += static_cast<double>(total.size());
+    }
+    (role == Role::train ? scores.train : scores.held_out) = count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  }
+  return scores;
+}
+
+Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                  const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                  const EstimateOptions& options) {
+  const Data& data = pool.data();
+  Estimate result;
+  result.theta = start;
+  result.x0 = start_x0.empty() ? std::vector<Eigen::VectorXd>(data.windows.size()) : start_x0;
+  const Eigen::VectorXd units = search_units(parameters, start);
+  const ceres::Solver::Summary summary =
+      solve(pool, data.windows_of(Role::train), parameters, units, result.theta, result.x0, options);
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  if (data.has(Role::held_out)) {
+    solve(pool, data.windows_of(Role::held_out), parameters, Eigen::VectorXd(), result.theta, result.x0, options);
+  }
+  result.square = squares(pool, parameters, result.theta, result.x0);
+  result.scores = score(data, result.square);
+  return result;
+}
+
+std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
+                            const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                            const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units) {
+  const Data& data = pool.data();
+  std::vector<Reduced> all(windows.size());
+  const Eigen::VectorXd slopes = slopes_of(parameters, units, theta);
+  parallel_for(static_cast<int>(windows.size()), data.threads, [&](int i) {
+    const int w = windows[static_cast<std::size_t>(i)];
+    Reduced& out = all[static_cast<std::size_t>(i)];
+    pool.with(w, parameters, theta, [&](Predictor& predictor) {
+      const Window& window = data.windows[static_cast<std::size_t>(w)];
+      const Eigen::VectorXd& given = x0[static_cast<std::size_t>(w)];
+      const Eigen::VectorXd start = given.size() > 0 ? given : predictor.initial_state(window);
+      const Linearisation lin = predictor.linearise(window, start, parameters);
+      const Eigen::Index nx = start.size();
+      const Eigen::Index rows = lin.r.size();
+      Eigen::MatrixXd X(rows + nx, nx);
+      X.topRows(rows) = lin.Jx;
+      X.bottomRows(nx) = predictor.initial_spread(window).cwiseInverse().asDiagonal();
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
+      const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
+      const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
+      const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
+      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
+      out.H = Jp.transpose() * Jp - QtJ.transpose() * QtJ;
+      out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
+      out.sse = lin.r.squaredNorm() - Qtr.squaredNorm();
+      const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
+      out.x_shift = R.solve(Qtr);
+      out.x_slope = R.solve(QtJ);
+    });
+  });
+  return all;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,60 @@
+// Least-squares estimates over windows: parameters shared by all, an initial state for each.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "validation/predict/problem.h"
+
+namespace plumbline::validation {
+
+/// Root mean square over the channels of (rms residual / floor), for the windows of one role.
+/// 1 is what the sensors alone leave.
+struct Scores {
+  double train = 0.0;
+  double held_out = 0.0;
+};
+
+struct Estimate {
+  Eigen::VectorXd theta;                ///< parameter values in their own units
+  std::vector<Eigen::VectorXd> x0;      ///< by window
+  std::vector<Eigen::VectorXd> square;  ///< by window: sum of squared residuals of each channel, floor units
+  Scores scores;
+  int iterations = 0;
+  bool converged = false;
+};
+
+struct EstimateOptions {
+  int iterations = 12;
+  double tolerance = 1e-4;  ///< relative change of the cost at which it stops
+};
+
+/// Ceres: minimises the squared residuals of the train windows over theta (within bounds) and each window's
+/// initial state; then, with theta fixed, the initial states of the held-out windows.
+/// start_x0 may be empty (from the measurements).
+Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                  const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                  const EstimateOptions& options);
+
+/// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.
+Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
+
+/// Normal equations of one window with its initial state eliminated (Schur complement through QR), in the
+/// search coordinates of the parameters scaled by `unit`: cost(delta) = sse - 2 g'delta + delta' H delta.
+struct Reduced {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+  double sse = 0.0;
+  Eigen::VectorXd x_shift;   ///< change of the initial state at delta = 0
+  Eigen::MatrixXd x_slope;   ///< its change with delta: x0 + x_shift - x_slope delta
+};
+
+/// One for each window in `windows`; columns are d/d(search)/unit.
+std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
+                            const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                            const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units);
+
+/// Size of a step of each parameter's search coordinate that matters (from its typical value).
+Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta);
+
+}  // namespace plumbline::validation

@@ -1,0 +1,266 @@
+#include "validation/predict/windows.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulator/integrate/plant_ode.h"
+#include "simulator/trace/error.h"
+
+namespace plumbline::validation {
+namespace {
+
+std::vector<model::Lock> locks_of(const Trial& trial) {
+  std::vector<model::Lock> locks;
+  for (const Lock& lock : trial.locks) {
+    locks.push_back({lock.at, lock.value});
+  }
+  return locks;
+}
+
+/// Samples at which windows may not continue: trial start, events, end.
+std::vector<Eigen::Index> cut_points(const Trial& trial) {
+  std::vector<Eigen::Index> cuts{0};
+  for (const double event : trial.events) {
+    const double* begin = trial.time.data();
+    const auto k = std::lower_bound(begin, begin + trial.samples(), event) - begin;
+    if (k > cuts.back() && k < trial.samples()) {
+      cuts.push_back(k);
+    }
+  }
+  cuts.push_back(trial.samples());
+  return cuts;
+}
+
+}  // namespace
+
+std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
+  std::vector<Window> windows;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const Trial& trial = trials[t];
+    const auto length = static_cast<Eigen::Index>(std::lround(options.window / trial.period));
+    if (trial.samples() < length) {
+      throw InputError({trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
+                       "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
+    }
+    const std::vector<Eigen::Index> cuts = cut_points(trial);
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+      const Eigen::Index span = cuts[c + 1] - cuts[c];
+      const Eigen::Index parts = std::max<Eigen::Index>(1, (span + length / 2) / length);
+      if (span < 8) {
+        continue;
+      }
+      for (Eigen::Index p = 0; p < parts; ++p) {
+        const Eigen::Index first = cuts[c] + span * p / parts;
+        windows.push_back({static_cast<int>(t), first, cuts[c] + span * (p + 1) / parts - first});
+      }
+    }
+  }
+  return windows;
+}
+
+Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
+    : trial_(trial), options_(options), plant_(model, locks_of(trial)) {
+  floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
+  for (std::size_t c = 0; c < trial.measured.size(); ++c) {
+    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
+      if (model.sensors[s].name == trial.measured[c].sensor) {
+        sensor_of_channel_.push_back(static_cast<int>(s));
+        floors_[static_cast<Eigen::Index>(c)] = model.sensors[s].floor();
+      }
+    }
+  }
+  command_samples_ = Eigen::MatrixXd::Zero(plant_.motors(), trial.samples());
+  for (const Command& command : trial.commands) {
+    for (int m = 0; m < plant_.motors(); ++m) {
+      if (model.motors[static_cast<std::size_t>(m)].name == command.motor) {
+        command_samples_.row(m) = command.values.transpose();
+      }
+    }
+  }
+  refresh_commands();
+}
+
+void Predictor::refresh_commands() {
+  std::vector<double> delays;
+  for (int m = 0; m < plant_.motors(); ++m) {
+    delays.push_back(plant_.delay(m));
+  }
+  commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, delays);
+}
+
+// Value and slope of each channel at the window's first sample, from a quadratic over 25 samples around it
+// (fewer at the trial's ends): long against the quantisation, short against the motion.
+Eigen::MatrixXd Predictor::local_polynomial(const Window& window) const {
+  const Eigen::Index reach = 12;
+  const Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
+  const Eigen::Index to = std::min(trial_.samples() - 1, window.first + reach);
+  const Eigen::Index n = to - from + 1;
+  Eigen::MatrixXd V(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double s = static_cast<double>(from + i - window.first);
+    V.row(i) << 1.0, s, s * s;
+  }
+  Eigen::MatrixXd Y(n, channels());
+  for (int c = 0; c < channels(); ++c) {
+    Y.col(c) = trial_.measured[static_cast<std::size_t>(c)].values.segment(from, n);
+  }
+  return V.colPivHouseholderQr().solve(Y);
+}
+
+Eigen::VectorXd Predictor::initial_state(const Window& window) {
+  const Eigen::MatrixXd local = local_polynomial(window);
+  const Eigen::Index nz = plant_.positions();
+  const Eigen::MatrixXd& stretch = plant_.stretch_map();
+  const Eigen::Index rows = channels() + stretch.rows();
+  Eigen::MatrixXd C(rows, nz);
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(rows, 2);
+  for (int c = 0; c < channels(); ++c) {
+    const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
+    C.row(c) = plant_.output_map().row(s) / floors_[c];
+    y(c, 0) = (local(0, c) - plant_.output_offset()[s]) / floors_[c];
+    y(c, 1) = local(1, c) / trial_.period / floors_[c];
+  }
+  // A stretch that no sensor sees is taken as zero, with a weight that never fights a sensor.
+  const double weak = 1e-6 * C.topRows(channels()).cwiseAbs().maxCoeff();
+  C.bottomRows(stretch.rows()) = weak * stretch;
+  const Eigen::MatrixXd z = C.completeOrthogonalDecomposition().solve(y);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
+  x.head(nz) = z.col(0);
+  x.segment(nz, nz) = z.col(1) / 1.0;
+  Eigen::VectorXd command(plant_.motors());
+  commands_->at(window.first, 0, command.data());
+  plant_.settle(command.data(), x.data());
+  return x;
+}
+
+// Wide: the data decide; only directions that no sensor sees are held by it.
+Eigen::VectorXd Predictor::initial_spread(const Window& window) {
+  const Eigen::VectorXd x = initial_state(window);
+  Eigen::VectorXd spread = Eigen::VectorXd::Ones(x.size());
+  const Eigen::Index nz = plant_.positions();
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    spread[i] = i < nz ? 1.0 : std::max(1.0, 10.0 * std::abs(x[i]));
+  }
+  for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
+    spread[i] = 1.0 + std::abs(x[i]);
+  }
+  return spread;
+}
+
+void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
+  integrate::PlantOde ode(plant_, false, false);
+  integrate::Options options;
+  options.relative_tolerance = options_.relative_tolerance;
+  options.absolute_tolerance = Eigen::VectorXd::Constant(1, options_.relative_tolerance * 1e-2);
+  integrate::Integrator integrator(ode, options);
+  refresh_commands();
+  states_.resize(plant_.states(), window.count);
+  states_.col(0) = x0;
+  const double t0 = trial_.time[window.first];
+  integrator.start(t0, x0);
+  const std::vector<double>& breaks = commands_->breaks();
+  for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
+    for (std::size_t b = 0; b < breaks.size(); ++b) {
+      commands_->at(window.first + k, b, ode.command());
+      integrator.input_changed(false);
+      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      integrator.advance(t0 + (static_cast<double>(k) + next) * trial_.period);
+    }
+    states_.col(k + 1) = integrator.state();
+  }
+  evaluations_ += integrator.summary().rate_evaluations;
+}
+
+Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& x0) {
+  run(window, x0);
+  Eigen::MatrixXd predicted(window.count, channels());
+  Eigen::VectorXd y(plant_.sensors());
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    plant_.outputs(states_.col(k).data(), y.data());
+    for (int c = 0; c < channels(); ++c) {
+      predicted(k, c) = y[sensor_of_channel_[static_cast<std::size_t>(c)]];
+    }
+  }
+  return predicted;
+}
+
+Eigen::VectorXd Predictor::residual_of(const Window& window, const Eigen::MatrixXd& predicted) const {
+  Eigen::VectorXd r(window.count * channels());
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    for (int c = 0; c < channels(); ++c) {
+      const double measured = trial_.measured[static_cast<std::size_t>(c)].values[window.first + k];
+      r[k * channels() + c] = (measured - predicted(k, c)) / floors_[c];
+    }
+  }
+  return r;
+}
+
+Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd& x0) {
+  return residual_of(window, predict(window, x0));
+}
+
+// Sensitivities S' = A S + B along the predicted motion, by the trapezoidal rule over each sample with A and
+// B at its middle: stable for stiff laws, second order, one linearisation for each sample.
+Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
+                                   const std::vector<FreeParameter>& parameters) {
+  Linearisation out;
+  const Eigen::MatrixXd predicted = predict(window, x0);
+  out.r = residual_of(window, predicted);
+  const Eigen::Index nx = plant_.states();
+  const auto np = static_cast<Eigen::Index>(parameters.size());
+  std::vector<model::ParameterId> ids;
+  Eigen::VectorXd steps(np);
+  for (Eigen::Index p = 0; p < np; ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    ids.push_back(parameter.id);
+    const double here = plant_.value(parameter.id);
+    const double reference = std::isfinite(here) && here != 0.0 ? std::abs(here) : parameter.typical;
+    steps[p] = 1e-4 * reference;
+    if (here + steps[p] > parameter.upper) {
+      steps[p] = -steps[p];
+    }
+  }
+  out.Jx.resize(out.r.size(), nx);
+  out.Jp.resize(out.r.size(), np);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
+  S.leftCols(nx).setIdentity();
+  Eigen::MatrixXd A(nx, nx);
+  Eigen::MatrixXd B;
+  Eigen::MatrixXd C;
+  Eigen::MatrixXd D;
+  Eigen::MatrixXd right;
+  Eigen::VectorXd command(plant_.motors());
+  Eigen::VectorXd slope(plant_.motors());
+  const double h = trial_.period;
+  const Eigen::Index nz = plant_.positions();
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    plant_.output_jacobian(states_.col(k).data(), C);
+    plant_.output_tangent(states_.col(k).data(), ids, steps, D);
+    for (int c = 0; c < channels(); ++c) {
+      const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
+      const Eigen::Index row = k * channels() + c;
+      out.Jx.row(row).noalias() = C.row(s) * S.topLeftCorner(nz, nx);
+      out.Jx.row(row) /= floors_[c];
+      out.Jp.row(row).noalias() = C.row(s) * S.topRightCorner(nz, np);
+      out.Jp.row(row) += D.row(s);
+      out.Jp.row(row) /= floors_[c];
+    }
+    if (k + 1 == window.count) {
+      break;
+    }
+    commands_->mean(window.first + k, command.data(), slope.data());
+    const Eigen::VectorXd middle = 0.5 * (states_.col(k) + states_.col(k + 1));
+    plant_.tangent(middle.data(), command.data(), slope.data(), ids, steps, k % options_.refresh == 0, A, B);
+    right = S + 0.5 * h * (A * S);
+    right.rightCols(np) += h * B;
+    A *= -0.5 * h;
+    A.diagonal().array() += 1.0;
+    S = A.partialPivLu().solve(right);
+  }
+  return out;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,92 @@
+// Windows of trials, and the prediction of one window from an initial state with all its derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulator/integrate/held_commands.h"
+#include "simulator/integrate/integrator.h"
+#include "simulator/model/plant.h"
+#include "validation/trial/trial.h"
+
+namespace plumbline::validation {
+
+/// Samples first ... first + count - 1 of a trial, predicted from their own initial state.
+struct Window {
+  int trial = 0;
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
+struct PredictOptions {
+  double window = 0.5;             ///< s
+  double relative_tolerance = 1e-6;
+  int refresh = 8;                 ///< samples between refreshes of the rigid linearisation
+};
+
+/// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
+/// half a window joins its neighbour. Throws InputError when a trial has fewer samples than one window.
+std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options);
+
+/// One parameter that may move.
+struct FreeParameter {
+  model::ParameterId id;
+  std::string label;       ///< "viscous@mLA:damping"
+  std::string unit;
+  effects::Scale scale = effects::Scale::linear;
+  double lower = 0.0, upper = 0.0;  ///< in the parameter's own unit
+  double typical = 1.0;
+};
+
+/// The window's residual r = (measured - predicted) / floor, channel by channel within each sample, and
+/// Jx = d(predicted)/d(x0) / floor, Jp = d(predicted)/d(parameters) / floor.
+struct Linearisation {
+  Eigen::VectorXd r;
+  Eigen::MatrixXd Jx, Jp;
+};
+
+/// Predicts windows of one trial with one model. Owns a Plant: one object for each thread.
+class Predictor {
+ public:
+  Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options);
+
+  model::Plant& plant() { return plant_; }
+  int channels() const { return static_cast<int>(sensor_of_channel_.size()); }
+  const Eigen::VectorXd& floors() const { return floors_; }
+
+  /// State at the window's start from the measurements alone: positions by weighted least squares over the
+  /// first samples' local polynomials, hidden states at rest, unseen stretches zero.
+  Eigen::VectorXd initial_state(const Window& window);
+  /// One standard deviation within which the initial state is expected around initial_state().
+  Eigen::VectorXd initial_spread(const Window& window);
+
+  /// Predicted channels, count x channels, SI.
+  Eigen::MatrixXd predict(const Window& window, const Eigen::VectorXd& x0);
+  /// Residuals only.
+  Eigen::VectorXd residual(const Window& window, const Eigen::VectorXd& x0);
+  Linearisation linearise(const Window& window, const Eigen::VectorXd& x0,
+                          const std::vector<FreeParameter>& parameters);
+  /// Residual of a window for predicted channels.
+  Eigen::VectorXd residual_of(const Window& window, const Eigen::MatrixXd& predicted) const;
+  /// Rate evaluations so far.
+  long evaluations() const { return evaluations_; }
+
+ private:
+  void run(const Window& window, const Eigen::VectorXd& x0);
+  void refresh_commands();
+  Eigen::MatrixXd local_polynomial(const Window& window) const;
+
+  const Trial& trial_;
+  PredictOptions options_;
+  model::Plant plant_;
+  std::vector<int> sensor_of_channel_;
+  Eigen::VectorXd floors_;
+  Eigen::MatrixXd command_samples_;
+  std::unique_ptr<integrate::HeldCommands> commands_;
+  Eigen::MatrixXd states_;  // states x count of the last run
+  long evaluations_ = 0;
+};
+
+}  // namespace plumbline::validation

@@ -1,0 +1,219 @@
+#include "validation/replay/replay.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "controllers/cascade_pd.h"
+#include "simulator/model/kinds.h"
+#include "simulator/sensing/encoder.h"
+#include "simulator/trace/error.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+template <typename Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) {
+    names.push_back(item.name);
+  }
+  return names;
+}
+
+/// Index of the item with this name, -1 when there is none.
+template <typename Item>
+Eigen::Index index_of(const std::vector<Item>& items, const std::string& name) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name == name) {
+      return static_cast<Eigen::Index>(i);
+    }
+  }
+  return -1;
+}
+
+Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Command>& commands,
+                                Eigen::Index samples) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), samples);
+  for (const Command& command : commands) {
+    const Eigen::Index motor = index_of(model.motors, command.motor);
+    if (motor >= 0) {
+      all.row(motor) = command.values.transpose();
+    }
+  }
+  return all;
+}
+
+/// A trial's controllers, each with the sensor it reads and the motor it commands.
+class Loops {
+ public:
+  Loops(const model::Model& model, const Trial& trial, const Eigen::VectorXd& previous_readings) {
+    for (const Controller& known : trial.controllers) {
+      Loop loop{
+          index_of(model.sensors, known.sensor),
+          index_of(model.motors, known.motor),
+          controllers::CascadePd({known.position_gain, known.velocity_gain, known.command_limit, trial.period}),
+          &known};
+      if (loop.sensor < 0 || loop.motor < 0) {
+        const bool sensor = loop.sensor < 0;
+        throw InputError({trial.file, 0, "controllers"}, sensor ? known.sensor : known.motor,
+                         std::string(sensor ? "a sensor" : "a motor") + " of the model" +
+                             nearest_names(sensor ? known.sensor : known.motor,
+                                           sensor ? names_of(model.sensors) : names_of(model.motors)));
+      }
+      loop.law.reset(previous_readings[loop.sensor]);
+      loops_.push_back(loop);
+    }
+  }
+
+  void command(Eigen::Index sample, const Eigen::VectorXd& readings, double* command) {
+    for (Loop& loop : loops_) {
+      const Eigen::VectorXd& added = loop.known->disturbance;
+      command[loop.motor] = loop.law.command(loop.known->reference[sample], readings[loop.sensor],
+                                             added.size() > 0 ? added[sample] : 0.0);
+    }
+  }
+
+ private:
+  struct Loop {
+    Eigen::Index sensor, motor;
+    controllers::CascadePd law;
+    const Controller* known;
+  };
+  std::vector<Loop> loops_;
+};
+
+/// Quantised, without noise: a run is repeatable.
+integrate::Readout readout_of(const model::Model& model) {
+  return [&model](Eigen::VectorXd& readings) {
+    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
+      const double resolution = model.sensors[s].resolution;
+      if (resolution > 0.0) {
+        double& value = readings[static_cast<Eigen::Index>(s)];
+        value = sensing::Encoder{resolution, 1.0, 0.0}.reading(value);
+      }
+    }
+  };
+}
+
+/// One period before the start, from the velocities there: a recording may begin in full motion.
+Eigen::VectorXd readings_before(model::Plant& plant, const Eigen::VectorXd& x0, double period) {
+  Eigen::VectorXd readings(plant.sensors());
+  plant.outputs(x0.data(), readings.data());
+  Eigen::MatrixXd slope;
+  plant.output_jacobian(x0.data(), slope);
+  return readings - period * (slope * x0.segment(plant.positions(), plant.positions()));
+}
+
+void add_place(model::Plant& plant, const std::string& name, bool angular, const Eigen::MatrixXd& states,
+               Table& trace) {
+  Eigen::VectorXd position(states.cols());
+  Eigen::VectorXd velocity(states.cols());
+  for (Eigen::Index k = 0; k < states.cols(); ++k) {
+    position[k] = plant.position_of(name, states.col(k).data());
+    velocity[k] = plant.velocity_of(name, states.col(k).data());
+  }
+  const std::string unit = model::position_unit(angular);
+  trace.columns.push_back({"x_" + name, unit, std::move(position)});
+  trace.columns.push_back({"v_" + name, unit + "/s", std::move(velocity)});
+}
+
+Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
+  const model::Model& model = plant.model();
+  Table trace;
+  trace.columns.push_back({"t", "s", run.time});
+  for (std::size_t s = 0; s < model.sensors.size(); ++s) {
+    const std::string& name = model.sensors[s].name;
+    trace.columns.push_back({"q_" + name,
+                             model::position_unit(model.place_is_angular(effects::Place::sensor, name)),
+                             run.outputs.row(static_cast<Eigen::Index>(s)).transpose()});
+  }
+  for (std::size_t m = 0; m < model.motors.size(); ++m) {
+    trace.columns.push_back({"u_" + model.motors[m].name, model.motors[m].command_unit,
+                             run.commands.row(static_cast<Eigen::Index>(m)).transpose()});
+  }
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    add_place(plant, coordinate.name, coordinate.angular, run.states, trace);
+  }
+  for (const model::Motor& motor : model.motors) {
+    add_place(plant, motor.name, motor.angular, run.states, trace);
+  }
+  return trace;
+}
+
+struct Start {
+  Eigen::VectorXd x0;
+  Eigen::MatrixXd commands;
+  double time = 0.0, period = 1e-3;
+};
+
+Replay run(model::Plant& plant, const Start& start, Loops* loops, const ReplayOptions& options) {
+  std::vector<double> delays;
+  for (int m = 0; m < plant.motors(); ++m) {
+    delays.push_back(plant.delay(m));
+  }
+  const auto each_sample = [&](Eigen::Index sample, double /*time*/, const Eigen::VectorXd& readings,
+                               double* command) {
+    if (options.stop != nullptr && options.stop->raised) {
+      throw Stopped();
+    }
+    if (loops != nullptr) {
+      loops->command(sample, readings, command);
+    }
+  };
+  integrate::RunOptions run_options;
+  run_options.integrator = options.integrator;
+  const auto begin = std::chrono::steady_clock::now();
+  Replay replay;
+  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, delays}, start.time, each_sample,
+                              readout_of(plant.model()), run_options);
+  replay.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  replay.duration = start.period * static_cast<double>(start.commands.cols() - 1);
+  replay.trace = trace_of(plant, replay.run);
+  return replay;
+}
+
+std::vector<ReplayError> errors_of(const model::Model& model, const Trial& trial,
+                                   const integrate::RunResult& run) {
+  std::vector<ReplayError> errors;
+  for (const Measured& channel : trial.measured) {
+    const Eigen::Index s = index_of(model.sensors, channel.sensor);
+    const Eigen::VectorXd difference = channel.values - run.outputs.row(s).transpose();
+    errors.push_back({channel.sensor,
+                      model::position_unit(model.place_is_angular(effects::Place::sensor, channel.sensor)),
+                      std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size())),
+                      model.sensors[static_cast<std::size_t>(s)].floor()});
+  }
+  return errors;
+}
+
+}  // namespace
+
+Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions& options) {
+  if (options.closed_loop && trial.controllers.empty()) {
+    throw InputError({trial.file, 0, "controllers"}, "none", "the controller that closes the loop");
+  }
+  Predictor predictor(model, trial, {});
+  model::Plant& plant = predictor.plant();
+  const Start start{predictor.initial_state({0, 0, trial.samples()}),
+                    command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
+  Replay result;
+  if (options.closed_loop) {
+    Loops loops(model, trial, readings_before(plant, start.x0, trial.period));
+    result = run(plant, start, &loops, options);
+  } else {
+    result = run(plant, start, nullptr, options);
+  }
+  result.errors = errors_of(model, trial, result.run);
+  return result;
+}
+
+Replay replay(const model::Model& model, const Experiment& experiment, const ReplayOptions& options) {
+  model::Plant plant(model, locks_of(model, experiment));
+  return run(plant,
+             {start_state(plant, experiment),
+              command_samples(model, experiment.commands, experiment.time.size()), 0.0, experiment.period},
+             nullptr, options);
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,82 @@
+// One recorded experiment, read from a folder with trial.yaml and its data, checked and in SI.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+
+namespace plumbline::validation {
+
+enum class Role { train, held_out };
+
+/// A channel measured by one of the model's sensors.
+struct Measured {
+  std::string sensor;      ///< name of a sensor of the model
+  std::string column;      ///< column in the data file
+  std::string unit;        ///< as declared
+  Eigen::VectorXd values;  ///< SI
+};
+
+/// A recorded command of one motor, held over each sample.
+struct Command {
+  std::string motor;
+  std::string column;
+  std::string unit;
+  Eigen::VectorXd values;  ///< in the motor's command unit (SI of it)
+};
+
+/// A coordinate or motor that was mechanically locked.
+struct Lock {
+  std::string at;
+  double value = 0.0;
+};
+
+/// A controller that ran on the robot and is known: u = velocity_gain (position_gain (r - y) - dy/dt) +
+/// disturbance.
+struct Controller {
+  std::string kind;  ///< "cascade_pd"
+  std::string motor;
+  std::string sensor;
+  double position_gain = 0.0;   ///< 1/s
+  double velocity_gain = 0.0;   ///< command unit s per position unit
+  double command_limit = 0.0;   ///< 0: none
+  int velocity_over = 1;        ///< samples n of its difference dy/dt = (y_k - y_(k-n)) / (n T): 1 or 2
+  Eigen::VectorXd reference;    ///< SI
+  Eigen::VectorXd disturbance;  ///< added to the command, empty: none
+};
+
+struct Trial {
+  std::string file;  ///< trial.yaml
+  std::string name;  ///< folder name
+  std::string title;
+  std::string model_file;  ///< as named in trial.yaml, resolved
+  std::string data_file;
+  Role role = Role::train;
+  Eigen::VectorXd time;  ///< s, strictly increasing, uniform within 1 %
+  double period = 1e-3;  ///< s
+  std::vector<Measured> measured;
+  std::vector<Command> commands;
+  std::vector<Lock> locks;
+  std::vector<Controller> controllers;
+  std::vector<double> events;  ///< times at which windows are cut (contact later)
+
+  Eigen::Index samples() const { return time.size(); }
+};
+
+struct TrialOptions {
+  std::string data_folder;  ///< replaces the trial's data folder; empty: as the trial says
+};
+
+/// `path` is a folder or a trial.yaml. The model gives the sensors' and motors' names and units.
+Trial read_trial(const std::string& path, const model::Model& model, const TrialOptions& options = {});
+
+/// Only the model file that a trial names (resolved relative to the trial), to read the model first.
+std::string model_of_trial(const std::string& path);
+
+/// Throws InputError when two trials with different roles read the same data (same file or same content).
+void check_roles(const std::vector<Trial>& trials);
+
+}  // namespace plumbline::validation

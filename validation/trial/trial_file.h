@@ -1,0 +1,79 @@
+// trial.yaml as it is written: what is named where, before any data are read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+#include "simulator/model/yaml_node.h"
+#include "validation/trial/trial.h"
+
+namespace plumbline::validation {
+
+/// A column that trial.yaml asks for. The place is that of the key, for messages.
+struct ColumnUse {
+  std::string name;
+  std::string unit;           ///< empty: the data file must say it
+  std::string expected_unit;  ///< of the sensor or motor it belongs to
+  std::string owner;          ///< "sensor q", for messages
+  Place_in_file place;
+};
+
+struct MeasuredUse {
+  std::string sensor;
+  ColumnUse column;
+};
+struct CommandUse {
+  std::string motor;
+  ColumnUse column;
+};
+struct ControllerUse {
+  Controller controller;  ///< without the recorded signals
+  ColumnUse reference;
+  std::optional<ColumnUse> disturbance;
+};
+
+struct TrialFile {
+  std::string path;    ///< of trial.yaml
+  std::string folder;  ///< where it lies
+  std::string title;
+  std::string model_file;
+  Role role = Role::train;
+  std::string data;             ///< as written
+  std::string data_folder_env;  ///< empty: none
+  Place_in_file data_folder_env_place;
+  ColumnUse time;
+  std::vector<MeasuredUse> measured;
+  std::vector<CommandUse> commands;
+  std::vector<ControllerUse> controllers;
+  std::vector<Lock> locks;
+  std::vector<double> events;
+};
+
+/// Refuses a file whose `plumbline:` line is missing or not exactly `version`.
+void check_version(const model::YamlNode& root, const std::string& version);
+
+/// train or held-out.
+Role read_role(const model::YamlNode& node);
+std::string to_string(Role role);
+
+/// The trial.yaml that a path to it or to its folder means.
+std::string trial_yaml(const std::string& path);
+
+/// The model file named in trial.yaml, resolved.
+std::string read_model_path(const model::YamlNode& root);
+
+/// "rad" or "m": the unit of what a sensor measures.
+std::string sensor_unit(const model::Model& model, const std::string& sensor);
+
+/// Refuses a name that is neither a coordinate nor a motor; returns its unit, rad or m.
+std::string placed_unit(const model::YamlNode& node, const std::string& name, const model::Model& model);
+
+/// The motor of this name; throws InputError with the nearest names.
+const model::Motor& known_motor(const model::YamlNode& node, const std::string& name,
+                                const model::Model& model);
+
+TrialFile read_trial_file(const std::string& path, const model::Model& model);
+
+}  // namespace plumbline::validation

@@ -1,0 +1,178 @@
+#include "validation/trial/write_trial.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+
+#include "simulator/trace/number_text.h"
+#include "simulator/trace/table.h"
+#include "simulator/trace/units.h"
+#include "validation/trial/new_folder.h"
+#include "validation/trial/physical_number.h"
+#include "validation/trial/trial_file.h"
+
+namespace plumbline::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDigits = 15;  // 0.003 stays 0.003, and 1e-15 is far below every sensor
+constexpr const char* kGainSource = "taken over from the trial that this one was made from";
+
+std::string or_else(const std::string& text, const std::string& fallback) {
+  return text.empty() ? fallback : text;
+}
+
+/// A place of the model without a line in any file.
+std::string unit_of_place(const model::Model& model, const std::string& name) {
+  const model::Motor* motor = model.find_motor(name);
+  const model::Coordinate* coordinate = model.find_coordinate(name);
+  return position_unit(motor != nullptr ? motor->angular : coordinate == nullptr || coordinate->angular);
+}
+
+std::string command_unit(const model::Model& model, const std::string& name) {
+  const model::Motor* motor = model.find_motor(name);
+  return motor == nullptr ? "N m" : motor->command_unit;
+}
+
+/// Fills the data table and writes trial.yaml's entries beside.
+class TrialWriter {
+ public:
+  TrialWriter(const Trial& trial, const model::Model& model, const fs::path& folder)
+      : trial_(trial), model_(model), folder_(folder) {}
+
+  std::string yaml() {
+    out_ << YAML::BeginMap;
+    entry("plumbline", "trial/1");
+    entry("title", or_else(trial_.title, trial_.name));
+    entry("model", fs::proximate(fs::absolute(trial_.model_file), folder_).string());
+    entry("role", to_string(trial_.role));
+    entry("data", "data.csv");
+    out_ << YAML::Key << "time" << YAML::Value;
+    column("t", "s", trial_.time);
+    write_commands();
+    write_measured();
+    write_locks();
+    write_controllers();
+    write_events();
+    out_ << YAML::EndMap;
+    return std::string(out_.c_str()) + "\n";
+  }
+
+  const Table& table() const { return table_; }
+
+ private:
+  void entry(const char* key, const std::string& value) { out_ << YAML::Key << key << YAML::Value << value; }
+
+  /// The column goes to the table, its name and unit to trial.yaml.
+  void column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
+    table_.columns.push_back({name, unit, si / to_si_factor(unit)});
+    out_ << YAML::Flow << YAML::BeginMap << YAML::Key << "column" << YAML::Value << name << YAML::Key
+         << "unit" << YAML::Value << unit << YAML::EndMap;
+  }
+
+  void quantity(const char* key, double value, const std::string& unit, const std::string& source) {
+    out_ << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "value"
+         << YAML::Value << number_text(value) << YAML::Key << "unit" << YAML::Value << unit;
+    if (!source.empty()) {
+      entry("source", source);
+    }
+    out_ << YAML::EndMap;
+  }
+
+  void write_commands() {
+    out_ << YAML::Key << "commands" << YAML::Value << YAML::BeginMap;
+    for (const Command& command : trial_.commands) {
+      out_ << YAML::Key << command.motor << YAML::Value;
+      column(or_else(command.column, "u_" + command.motor),
+             or_else(command.unit, command_unit(model_, command.motor)), command.values);
+    }
+    out_ << YAML::EndMap;
+  }
+
+  void write_measured() {
+    out_ << YAML::Key << "measured" << YAML::Value << YAML::BeginMap;
+    for (const Measured& measured : trial_.measured) {
+      out_ << YAML::Key << measured.sensor << YAML::Value;
+      column(or_else(measured.column, "q_" + measured.sensor),
+             or_else(measured.unit, sensor_unit(model_, measured.sensor)), measured.values);
+    }
+    out_ << YAML::EndMap;
+  }
+
+  void write_locks() {
+    if (trial_.locks.empty()) {
+      return;
+    }
+    out_ << YAML::Key << "locked" << YAML::Value << YAML::BeginMap;
+    for (const Lock& lock : trial_.locks) {
+      quantity(lock.at.c_str(), lock.value, unit_of_place(model_, lock.at), "");
+    }
+    out_ << YAML::EndMap;
+  }
+
+  void write_controllers() {
+    if (trial_.controllers.empty()) {
+      return;
+    }
+    out_ << YAML::Key << "controllers" << YAML::Value << YAML::BeginSeq;
+    for (const Controller& controller : trial_.controllers) {
+      write_controller(controller);
+    }
+    out_ << YAML::EndSeq;
+  }
+
+  void write_controller(const Controller& c) {
+    const std::string position = sensor_unit(model_, c.sensor);
+    const std::string command = command_unit(model_, c.motor);
+    out_ << YAML::BeginMap;
+    entry("kind", c.kind);
+    entry("motor", c.motor);
+    entry("sensor", c.sensor);
+    out_ << YAML::Key << "reference" << YAML::Value;
+    column("reference_" + c.motor, position, c.reference);
+    quantity("position_gain", c.position_gain, "1/s", kGainSource);
+    quantity("velocity_gain", c.velocity_gain, command + " s/" + position, kGainSource);
+    if (c.disturbance.size() > 0) {
+      out_ << YAML::Key << "disturbance" << YAML::Value;
+      column("disturbance_" + c.motor, command, c.disturbance);
+    }
+    if (c.command_limit > 0.0) {
+      quantity("command_limit", c.command_limit, command, "");
+    }
+    if (c.velocity_over != 1) {
+      out_ << YAML::Key << "velocity_over" << YAML::Value << c.velocity_over;
+    }
+    out_ << YAML::EndMap;
+  }
+
+  void write_events() {
+    if (trial_.events.empty()) {
+      return;
+    }
+    out_ << YAML::Key << "events" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double event : trial_.events) {
+      out_ << number_text(event) + " s";
+    }
+    out_ << YAML::EndSeq;
+  }
+
+  const Trial& trial_;
+  const model::Model& model_;
+  fs::path folder_;
+  Table table_;
+  YAML::Emitter out_;
+};
+
+}  // namespace
+
+void write_trial(const Trial& trial, const model::Model& model, const std::string& folder) {
+  TrialWriter writer(trial, model, fs::absolute(folder).lexically_normal());
+  const std::string yaml = writer.yaml();
+  write_new_folder(folder, [&](const std::string& temporary) {
+    write_csv(writer.table(), (fs::path(temporary) / "data.csv").string(), kDigits);
+    write_text_atomically((fs::path(temporary) / "trial.yaml").string(), yaml);
+  });
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,184 @@
+#include "validation/twin/twin.h"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "simulator/integrate/run.h"
+#include "simulator/sensing/encoder.h"
+#include "simulator/trace/error.h"
+
+namespace plumbline::validation {
+namespace {
+
+double number_of(const std::string& text, const std::string& whole) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size() && !std::isnan(value)) {
+      return value;
+    }
+  } catch (const std::exception&) {
+    // falls through to the message
+  }
+  throw InputError("'" + whole + "': found '" + text + "', expected a number");
+}
+
+/// Sensors as the model describes them; the generator is shared by all channels of one run.
+integrate::Readout readout_of(const model::Model& model, bool quantise, std::mt19937_64& random) {
+  return [&model, quantise, &random](Eigen::VectorXd& readings) {
+    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
+      const model::Sensor& sensor = model.sensors[s];
+      double& value = readings[static_cast<Eigen::Index>(s)];
+      value = sensing::with_noise(value, sensor.noise, random);
+      if (quantise && sensor.resolution > 0.0) {
+        value = sensing::Encoder{sensor.resolution, 1.0, 0.0}.reading(value);
+      }
+    }
+  };
+}
+
+Eigen::MatrixXd command_samples(const model::Model& model, const Experiment& experiment) {
+  Eigen::MatrixXd samples =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), experiment.time.size());
+  for (const Command& command : experiment.commands) {
+    for (std::size_t m = 0; m < model.motors.size(); ++m) {
+      if (model.motors[m].name == command.motor) {
+        samples.row(static_cast<Eigen::Index>(m)) = command.values.transpose();
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+model::EffectUse parse_effect(const std::string& text, const model::Model& model,
+                              const effects::Catalogue& catalogue) {
+  const std::size_t at = text.find('@');
+  const std::size_t colon = text.find(':', at == std::string::npos ? 0 : at);
+  if (at == std::string::npos) {
+    throw InputError("'" + text + "': found no place, expected EFFECT@WHERE:param=value");
+  }
+  model::EffectUse use;
+  const std::string name = text.substr(0, at);
+  use.law = catalogue.find(name);
+  if (!use.law) {
+    std::vector<std::string> known;
+    for (const auto& law : catalogue.laws()) {
+      known.push_back(law->declaration().name);
+    }
+    throw InputError("'" + text + "': unknown effect '" + name + "'" + nearest_names(name, known));
+  }
+  use.at = text.substr(at + 1, colon == std::string::npos ? std::string::npos : colon - at - 1);
+  model.resolve(*use.law, use.at);
+  const effects::Declaration& declaration = use.law->declaration();
+  const effects::Values shape = use.law->starts({}).front();
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < declaration.parameters.size(); ++p) {
+    model::Quantity quantity;
+    quantity.value = declaration.parameters[p].structural ? shape[p] : declaration.parameters[p].null_value;
+    use.values.push_back(quantity);
+    names.push_back(declaration.parameters[p].name);
+  }
+  std::stringstream rest(colon == std::string::npos ? "" : text.substr(colon + 1));
+  for (std::string item; std::getline(rest, item, ',');) {
+    const std::size_t equal = item.find('=');
+    const std::string parameter = item.substr(0, equal);
+    const int index = use.law->parameter_index(parameter);
+    if (equal == std::string::npos || index < 0) {
+      throw InputError("'" + text + "': unknown parameter '" + parameter + "' of " + name +
+                       nearest_names(parameter, names));
+    }
+    const effects::Parameter& declared = declaration.parameters[static_cast<std::size_t>(index)];
+    const double value = number_of(item.substr(equal + 1), text);
+    if (value < declared.lower || value > declared.upper) {
+      std::ostringstream range;
+      range << "'" << text << "': found " << parameter << " = " << value << ", expected " << declared.lower
+            << " to " << declared.upper;
+      throw InputError(range.str());
+    }
+    use.values[static_cast<std::size_t>(index)].value = value;
+  }
+  return use;
+}
+
+std::vector<model::Lock> locks_of(const model::Model& model, const Experiment& experiment) {
+  if (experiment.locked.empty()) {
+    return {};
+  }
+  model::Plant free(model, {});
+  const Eigen::VectorXd x = start_state(free, experiment);
+  std::vector<model::Lock> locks;
+  for (const std::string& name : experiment.locked) {
+    locks.push_back({name, free.position_of(name, x.data())});
+  }
+  return locks;
+}
+
+Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
+  const Eigen::Index nz = plant.positions();
+  const auto starts = static_cast<Eigen::Index>(experiment.start.size());
+  // Positions that the experiment does not name are zero; unseen stretches too. Least squares weighs the
+  // named ones far above the rest.
+  const Eigen::MatrixXd& stretch = plant.stretch_map();
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(starts + stretch.rows() + nz, nz);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(C.rows());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  for (Eigen::Index i = 0; i < starts; ++i) {
+    const Start& start = experiment.start[static_cast<std::size_t>(i)];
+    x.setZero();
+    const double offset = plant.position_of(start.coordinate, x.data());
+    for (Eigen::Index j = 0; j < nz; ++j) {
+      x[nz + j] = 1.0;
+      C(i, j) = plant.velocity_of(start.coordinate, x.data());
+      x[nz + j] = 0.0;
+    }
+    right[i] = start.position - offset;
+  }
+  C.middleRows(starts, stretch.rows()) = 1e-2 * stretch;
+  C.bottomRows(nz) = 1e-7 * Eigen::MatrixXd::Identity(nz, nz);
+  x.head(nz) = C.colPivHouseholderQr().solve(right);
+  const Eigen::MatrixXd samples = command_samples(plant.model(), experiment);
+  const Eigen::VectorXd first = samples.col(0);
+  plant.settle(first.data(), x.data());
+  return x;
+}
+
+Trial twin(const model::Model& model, const Experiment& experiment, const TwinOptions& options) {
+  const std::vector<model::Lock> locks = locks_of(model, experiment);
+  model::Plant plant(model, locks);
+  std::vector<double> delays;
+  for (int m = 0; m < plant.motors(); ++m) {
+    delays.push_back(plant.delay(m));
+  }
+  std::mt19937_64 random(options.seed);
+  integrate::RunOptions run;
+  run.energy = false;
+  run.events = false;
+  run.integrator.relative_tolerance = options.relative_tolerance;
+  run.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, options.relative_tolerance * 1e-2);
+  const integrate::HeldCommands commands(command_samples(model, experiment), experiment.period, delays);
+  const integrate::RunResult result = integrate::run(plant, start_state(plant, experiment), commands, 0.0, {},
+                                                     readout_of(model, options.quantise, random), run);
+  Trial trial;
+  trial.title = experiment.title;
+  trial.model_file = model.file;
+  trial.role = experiment.role;
+  trial.time = experiment.time;
+  trial.period = experiment.period;
+  trial.commands = experiment.commands;
+  for (const model::Lock& lock : locks) {
+    trial.locks.push_back({lock.at, lock.value});
+  }
+  for (std::size_t s = 0; s < model.sensors.size(); ++s) {
+    Measured channel;
+    channel.sensor = model.sensors[s].name;
+    channel.values = result.readings.row(static_cast<Eigen::Index>(s)).transpose();
+    trial.measured.push_back(std::move(channel));
+  }
+  return trial;
+}
+
+}  // namespace plumbline::validation
