@@ -15,10 +15,10 @@ struct CascadePdGains {
 };
 
 /// u = kv (kp (r - y) - v) + d, held within plus and minus the command limit,
-/// with the causal difference v = (y_k - y_(k-n)) / (n T); over fewer samples while fewer are known, and v = 0
-/// at the first. r, y in rad or m; u, d in the unit of the motor's command.
-/// Source: A. Janot, M. Gautier, M. Brunot, Data set and reference models of EMPS, Nonlinear System
-/// Identification Benchmarks 2019, where such a controller drove the measured axis.
+/// with the causal difference v = (y_k - y_(k-n)) / (n T); over fewer samples while fewer are known, and v =
+/// 0 at the first. r, y in rad or m; u, d in the unit of the motor's command. Source: A. Janot, M. Gautier,
+/// M. Brunot, Data set and reference models of EMPS, Nonlinear System Identification Benchmarks 2019, where
+/// such a controller drove the measured axis.
 class CascadePd {
  public:
   /// Throws std::invalid_argument when a gain is not finite, the limit is negative, the period not positive

@@ -29,10 +29,16 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
   return text;
 }
 
+// Positive shapes (a speed over which friction fades) have no null value of their own.
+std::string value_word(const Parameter& parameter) {
+  if (parameter.structural) return "fixed, standard ";
+  return parameter.scale == Scale::logarithm ? "standard " : "null ";
+}
+
 std::string parameter_text(const Parameter& parameter) {
   return "`" + parameter.name + "` [" + unit_in_words(parameter.unit) + "] " + parameter.meaning + "; " +
-         (parameter.structural ? "fixed, standard " : "null ") + number(parameter.null_value) + ", " +
-         number(parameter.lower) + " to " + number(parameter.upper);
+         value_word(parameter) + number(parameter.null_value) + ", " + number(parameter.lower) + " to " +
+         number(parameter.upper);
 }
 
 std::string row(const Declaration& law) {

@@ -23,7 +23,7 @@ double damping_force(double rate, const double* p) {
 const Declaration& HardStop::declaration() const {
   static const Declaration kDeclaration{
       "hard_stop",
-      "a hard stop: a stiff, damped contact beyond a position",
+      "a stiff, damped contact beyond a position",
       "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*sqrt(max(d_rate, 0)/root_speed)) if d "
       "> 0 else 0; d = side*(x - position); d_rate = side*v",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "

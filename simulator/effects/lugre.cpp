@@ -29,7 +29,7 @@ double bristle_rate(double v, double z, const double* p) {
 const Declaration& LuGre::declaration() const {
   static const Declaration kDeclaration{
       "lugre",
-      "LuGre friction: bristles that deflect before the surfaces slide",
+      "bristles that deflect before the surfaces slide",
       "f = -(stiffness*bristle + bristle_damping*bristle_rate + viscous*v); bristle_rate = v - "
       "stiffness*|v|/g*bristle; g = level + rise*exp(-(v/stribeck_speed)^2)",
       "Canudas de Wit, Olsson, Astrom and Lischinsky, A new model for control of systems with friction, IEEE "

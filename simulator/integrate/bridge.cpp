@@ -30,9 +30,7 @@ Bridge::Bridge(Ode& ode, Method method)
       remember_rate_(method != Method::bdf),
       not_finite_code_(method == Method::explicit_rk ? 0 : 1),
       last_x_(Eigen::VectorXd::Zero(ode.size())),
-      last_xdot_(last_x_),
-      projected_(last_x_),
-      moved_(last_x_) {
+      last_xdot_(last_x_) {
   message_.reserve(512);
 }
 
@@ -105,24 +103,12 @@ int Bridge::project_state(realtype t, N_Vector x, void* self) {
 }
 
 int Bridge::project_correction(realtype t, N_Vector x, N_Vector correction, realtype /*epsilon*/,
-                               N_Vector error, void* self) {
-  auto& bridge = *static_cast<Bridge*>(self);
-  try {
-    bridge.projected_ = map(x);
-    const double before = bridge.ode_.project(t, bridge.projected_.data());
-    bridge.largest_projection = std::max(bridge.largest_projection, before);
-    map(correction) = bridge.projected_ - map(x);
-    if (error != nullptr) {
-      // The part of the error along the manifold, to second order in the error.
-      bridge.moved_ = bridge.projected_ + map(error);
-      bridge.ode_.project(t, bridge.moved_.data());
-      map(error) = bridge.moved_ - bridge.projected_;
-    }
-    return 0;
-  } catch (...) {
-    bridge.thrown_ = std::current_exception();
-    return -1;
-  }
+                               N_Vector /*error*/, void* self) {
+  auto moved = map(correction);
+  moved = map(x);
+  const int flag = project_state(t, correction, self);
+  moved -= map(x);
+  return flag;
 }
 
 void Bridge::message(int /*code*/, const char* /*module*/, const char* /*function*/, char* text, void* self) {
@@ -141,13 +127,17 @@ void Bridge::reset() {
   largest_projection = 0.0;
 }
 
-void Bridge::fail(const std::string& method, double t, const std::string& flag) {
+std::string Bridge::reason(const std::string& flag) const {
+  std::string text = message_.empty() ? flag : flag + ": " + message_;
+  if (not_finite_) text += " Some rates were not finite.";
+  return text;
+}
+
+void Bridge::fail(const std::string& method, double t, const std::string& reason) {
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   std::ostringstream text;
   text.precision(12);
-  text << method << " failed after t = " << t << " s: " << flag;
-  if (!message_.empty()) text << ": " << message_;
-  if (not_finite_) text << " The rate was not finite.";
+  text << method << " failed after t = " << t << " s: " << reason;
   throw std::runtime_error(text.str());
 }
 

@@ -39,8 +39,10 @@ class Bridge {
   void forget();
   /// As if new: also the counts.
   void reset();
-  /// Throws what the Ode threw, or else std::runtime_error with method, time and SUNDIALS' reason.
-  [[noreturn]] void fail(const std::string& method, double t, const std::string& flag);
+  /// A failure of SUNDIALS in its own words.
+  std::string reason(const std::string& flag) const;
+  /// Throws what the Ode threw, or else std::runtime_error with method, time and reason.
+  [[noreturn]] void fail(const std::string& method, double t, const std::string& reason);
 
   long rate_evaluations = 0;
   long jacobian_evaluations = 0;
@@ -57,7 +59,6 @@ class Bridge {
   bool not_finite_ = false;
   double last_t_ = 0.0;
   Eigen::VectorXd last_x_, last_xdot_;
-  Eigen::VectorXd projected_, moved_;
   std::exception_ptr thrown_;
   std::string message_;
 };

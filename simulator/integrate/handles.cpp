@@ -22,8 +22,9 @@ Vector view(Eigen::VectorXd& storage, const Context& context) {
 DenseSolver::DenseSolver(N_Vector like, int size, const Context& context)
     : matrix(SUNDenseMatrix(size, size, context.get())),
       solver(SUNLinSol_Dense(like, matrix.get(), context.get())) {
-  if (!matrix || !solver)
+  if (!matrix || !solver) {
     throw std::runtime_error("SUNDIALS: no dense linear solver (is another copy linked first?)");
+  }
 }
 
 }  // namespace plumbline::integrate

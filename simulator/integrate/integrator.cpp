@@ -34,6 +34,13 @@ std::unique_ptr<Backend> make_backend(Bridge& bridge, const Options& options) {
 /// Times closer than this are the same to SUNDIALS.
 double roundoff(double t) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
+std::string in_seconds(double t) {
+  std::ostringstream text;
+  text.precision(12);
+  text << t << " s";
+  return text.str();
+}
+
 }  // namespace
 
 struct Integrator::Impl {
@@ -51,6 +58,8 @@ struct Integrator::Impl {
       if (direction != 0) events.push_back({backend->time(), static_cast<int>(i), direction});
     }
   }
+
+  [[noreturn]] void fail(const std::string& reason) { bridge.fail(method, backend->time(), reason); }
 
   Options options;
   std::string method;
@@ -79,16 +88,12 @@ void Integrator::input_changed(bool keep_history) {
 
 void Integrator::advance(double t_end) {
   Backend& backend = *impl_->backend;
-  if (!(t_end >= backend.time() - roundoff(t_end))) {
-    impl_->bridge.fail(impl_->method, backend.time(),
-                       "cannot go back to t = " + std::to_string(t_end) + " s");
-  }
+  if (!(t_end >= backend.time() - roundoff(t_end))) impl_->fail("cannot go back to t = " + in_seconds(t_end));
   const long allowed = backend.counts().steps + impl_->options.max_steps;
   while (t_end - backend.time() > roundoff(t_end)) {
     if (backend.counts().steps >= allowed) {
-      impl_->bridge.fail(impl_->method, backend.time(),
-                         "max_steps = " + std::to_string(impl_->options.max_steps) +
-                             " steps do not reach t = " + std::to_string(t_end) + " s");
+      impl_->fail("max_steps = " + std::to_string(impl_->options.max_steps) +
+                  " steps do not reach t = " + in_seconds(t_end));
     }
     if (backend.advance(t_end)) impl_->record_switches();
   }

@@ -64,13 +64,14 @@ class Integrator {
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
-  /// Begin (again) at t with state x; forgets history.
+  /// Begin (again) at t with state x; forgets history, events and counts.
   void start(double t, const Eigen::VectorXd& x);
   /// The right-hand side has jumped (a new held command). `keep_history`: bdf goes on with its old history
   /// (cheap; right when the jump is small), otherwise restarts. One-step methods need no restart.
   void input_changed(bool keep_history);
   /// Advance exactly to t_end; switching functions are located on the way, recorded, and the method restarted
-  /// behind each. Throws std::runtime_error with method, time and SUNDIALS' reason on failure.
+  /// behind each. Throws std::runtime_error with method, time and SUNDIALS' reason on failure; what the Ode
+  /// throws passes through. After either, start again.
   void advance(double t_end);
 
   double time() const;

@@ -4,6 +4,8 @@
 
 namespace plumbline::integrate {
 
+// A writable view is passed by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Ode::jacobian(double /*t*/, const double* /*x*/, Eigen::Ref<Eigen::MatrixXd> /*J*/) {
   throw std::logic_error("Ode::jacobian: has_jacobian() is true, but jacobian() is not overridden");
 }

@@ -5,20 +5,24 @@
 
 namespace plumbline::integrate {
 
-SwitchBracket::SwitchBracket(double lo, Eigen::VectorXd g_lo, double hi, Eigen::VectorXd g_hi)
-    : lo_(lo), hi_(hi), g_lo_(std::move(g_lo)), g_hi_(std::move(g_hi)) {}
+namespace {
+bool changes_sign(double before, double after) { return before != 0.0 && before * after <= 0.0; }
+}  // namespace
 
-bool SwitchBracket::changes(const Eigen::VectorXd& g) const {
-  for (Eigen::Index i = 0; i < g.size(); ++i) {
-    if (changes(i, g[i])) return true;
+bool any_changes_sign(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    if (changes_sign(before[i], after[i])) return true;
   }
   return false;
 }
 
+SwitchBracket::SwitchBracket(double lo, Eigen::VectorXd g_lo, double hi, Eigen::VectorXd g_hi)
+    : lo_(lo), hi_(hi), g_lo_(std::move(g_lo)), g_hi_(std::move(g_hi)) {}
+
 double SwitchBracket::guess() const {
   double first = 1.0;
   for (Eigen::Index i = 0; i < g_hi_.size(); ++i) {
-    if (!changes(i, g_hi_[i])) continue;
+    if (!changes_sign(g_lo_[i], g_hi_[i])) continue;
     const double a = weight_lo_ * g_lo_[i];
     const double b = weight_hi_ * g_hi_[i];
     first = std::min(first, a / (a - b));
@@ -28,7 +32,7 @@ double SwitchBracket::guess() const {
 }
 
 void SwitchBracket::narrow(double t, const Eigen::VectorXd& g) {
-  if (changes(g)) {
+  if (any_changes_sign(g_lo_, g)) {
     hi_ = t;
     g_hi_ = g;
     weight_hi_ = 1.0;
@@ -43,7 +47,7 @@ void SwitchBracket::narrow(double t, const Eigen::VectorXd& g) {
 
 void SwitchBracket::directions(std::vector<int>& direction) const {
   for (Eigen::Index i = 0; i < g_hi_.size(); ++i) {
-    const bool changed = changes(i, g_hi_[i]);
+    const bool changed = changes_sign(g_lo_[i], g_hi_[i]);
     direction[static_cast<std::size_t>(i)] = !changed ? 0 : g_lo_[i] < 0.0 ? 1 : -1;
   }
 }

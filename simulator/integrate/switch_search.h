@@ -6,14 +6,15 @@
 
 namespace plumbline::integrate {
 
+/// Does a function change its sign between two times? Zero before: it has none to change; zero after: it
+/// does.
+bool any_changes_sign(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
 /// A bracket around the first sign change: at lo no function has changed its sign, at hi at least one has.
-/// A function that is zero at lo has no sign to change; zero at hi counts as a change.
 class SwitchBracket {
  public:
   SwitchBracket(double lo, Eigen::VectorXd g_lo, double hi, Eigen::VectorXd g_hi);
 
-  /// Does any function change its sign from g_lo to g?
-  bool changes(const Eigen::VectorXd& g) const;
   /// A guess strictly inside: regula falsi with halved weights (Illinois; M. Dowell and P. Jarratt, BIT 11
   /// (1971) 168), for the function that would be the first to cross.
   double guess() const;
@@ -27,8 +28,6 @@ class SwitchBracket {
   double width() const { return hi_ - lo_; }
 
  private:
-  bool changes(Eigen::Index i, double g) const { return g_lo_[i] != 0.0 && g_lo_[i] * g <= 0.0; }
-
   double lo_, hi_;
   Eigen::VectorXd g_lo_, g_hi_;
   double weight_lo_ = 1.0, weight_hi_ = 1.0;

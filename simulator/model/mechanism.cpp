@@ -48,18 +48,19 @@ struct Mechanism::Impl {
   std::vector<double> masses;
   std::vector<SimTK::Vec3> coms;
   int size = 0;
-  SimTK::Vector no_udot, no_mobility_force, residual;
+  SimTK::Vector no_udot, no_mobility_force, residual, direction, momentum;
   SimTK::Vector_<SimTK::SpatialVec> weights;
-  SimTK::Matrix mass_matrix;
 
   explicit Impl(const Skeleton& skeleton) : gravity(to_simtk(skeleton.gravity)) {
     build(skeleton);
     system.realizeTopology();
     state = system.getDefaultState();
     system.realizeModel(state);
+    system.realize(state, SimTK::Stage::Instance);
     no_udot.resize(size);
     no_udot = 0;
     no_mobility_force = no_udot;
+    direction = no_udot;
     weights.resize(matter.getNumBodies());
     weights = SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0));
   }
@@ -109,6 +110,15 @@ struct Mechanism::Impl {
     return SimTK::MobilizedBody::Weld(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
   }
 
+  /// Only the matter subsystem is realised: the system's other parts (force caches) are not used here and
+  /// would cost a fifth of the evaluation.
+  void realize_velocity() {
+    const SimTK::Subsystem::Guts& guts = matter.getSubsystemGuts();
+    guts.realizeSubsystemTime(state);
+    guts.realizeSubsystemPosition(state);
+    guts.realizeSubsystemVelocity(state);
+  }
+
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     SimTK::Vector& Q = state.updQ();
     SimTK::Vector& U = state.updU();
@@ -130,11 +140,11 @@ int Mechanism::coordinate_of_joint(int joint) const {
   return impl_->coordinate_of_joint[static_cast<std::size_t>(joint)];
 }
 
-void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M,
-                         Eigen::VectorXd& h) {
+void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::MatrixXd& S,
+                         Eigen::MatrixXd& M_S, Eigen::VectorXd& h) {
   Impl& d = *impl_;
   d.set_state(q, v);
-  d.matter.getSystem().realize(d.state, SimTK::Stage::Velocity);
+  d.realize_velocity();
   for (std::size_t b = 0; b < d.moving.size(); ++b) {
     const SimTK::MobilizedBody& body = d.matter.getMobilizedBody(d.moving[b]);
     const SimTK::Vec3 weight = d.masses[b] * d.gravity;
@@ -143,13 +153,22 @@ void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eig
   }
   d.matter.calcResidualForceIgnoringConstraints(d.state, d.no_mobility_force, d.weights, d.no_udot,
                                                 d.residual);
-  d.matter.calcM(d.state, d.mass_matrix);
-  M.resize(d.size, d.size);
   h.resize(d.size);
   for (int i = 0; i < d.size; ++i) {
     h[i] = d.residual[i];
-    for (int j = 0; j < d.size; ++j) {
-      M(i, j) = d.mass_matrix(i, j);
+  }
+  M_S.resize(S.cols(), S.cols());
+  for (Eigen::Index c = 0; c < S.cols(); ++c) {
+    for (int i = 0; i < d.size; ++i) {
+      d.direction[i] = S(i, c);
+    }
+    d.matter.multiplyByM(d.state, d.direction, d.momentum);
+    for (Eigen::Index r = 0; r < S.cols(); ++r) {
+      double sum = 0.0;
+      for (int i = 0; i < d.size; ++i) {
+        sum += S(i, r) * d.momentum[i];
+      }
+      M_S(r, c) = sum;
     }
   }
 }
@@ -157,7 +176,7 @@ void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eig
 double Mechanism::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   Impl& d = *impl_;
   d.set_state(q, v);
-  d.matter.getSystem().realize(d.state, SimTK::Stage::Velocity);
+  d.realize_velocity();
   double potential = 0.0;
   for (std::size_t b = 0; b < d.moving.size(); ++b) {
     const SimTK::MobilizedBody& body = d.matter.getMobilizedBody(d.moving[b]);

@@ -62,8 +62,7 @@ void Plant::evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixX
   q_.noalias() = S_tree_ * z;
   q_ += q0_.head(n_tree_);
   v_.noalias() = S_tree_ * w;
-  structure.mechanism->evaluate(q_, v_, M_tree_, h_tree_);
-  M.noalias() = S_tree_.transpose() * M_tree_.lazyProduct(S_tree_).eval();
+  structure.mechanism->evaluate(q_, v_, S_tree_, M, h_tree_);
   M += structure.extra_reduced;
   h.noalias() = S_tree_.transpose() * h_tree_;
 }

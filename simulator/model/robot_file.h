@@ -13,7 +13,12 @@ namespace plumbline::model {
 /// or effects, cut-off YAML.
 Model read_model(const std::string& path, const effects::Catalogue& catalogue);
 
-/// SDFormat or URDF through libsdformat. `model_name` may be empty when the file holds one model.
+/// SDFormat or URDF through libsdformat: one model of links and revolute, continuous, prismatic or fixed
+/// joints. Every link stays a body, also behind a fixed joint. A single root link is fixed to the world when
+/// no joint leads there; floating bases are not supported yet. Masses that the file does not state are not
+/// invented: a link without <inertial> has none, and must be fixed to the world or to a link that has one.
+/// Joint limits, damping and friction of the file are not read: those are effects. Gravity is the world's
+/// when it states one. Throws InputError with file, line and link or joint.
 Skeleton read_skeleton(const std::string& path);
 
 /// A change on top of a model: an effect added, or values set with their new uncertainty and source.
@@ -26,11 +31,11 @@ struct NewValue {
   double value = 0, uncertainty = 0;
   std::string unit, source;
 };
-/// Writes an overlay file `path` whose base is `base_file` (path kept relative to the overlay). The overlay is
-/// read back before it is written: throws InputError, and writes nothing, when the base does not know a name or
-/// a value is outside its bounds. The catalogue gives the parameters' names and units.
-void write_overlay(const std::string& path, const std::string& base_file, const std::vector<AddedEffect>& added,
-                   const std::vector<NewValue>& values, const std::string& note,
-                   const effects::Catalogue& catalogue = effects::Catalogue::all());
+/// Writes an overlay file `path` whose base is `base_file` (path kept relative to the overlay). The overlay
+/// is read back before it is written: throws InputError, and writes nothing, when the base does not know a
+/// name or a value is outside its bounds. The catalogue gives the parameters' names and units.
+void write_overlay(const std::string& path, const std::string& base_file,
+                   const std::vector<AddedEffect>& added, const std::vector<NewValue>& values,
+                   const std::string& note, const effects::Catalogue& catalogue = effects::Catalogue::all());
 
 }  // namespace plumbline::model

@@ -94,9 +94,12 @@ XmlPart SkeletonXml::part_in(const std::string& message) const {
 
 const XMLElement& SkeletonXml::find_model() {
   const XMLElement* root = document_.RootElement();
-  const std::string kind = root == nullptr ? "" : root->Name();
+  if (root == nullptr) {
+    refuse({"", 1}, "no root element", "<sdf> or <robot>");
+  }
+  const std::string kind = root->Name();
   if (kind != "sdf" && kind != "robot") {
-    refuse({"", root == nullptr ? 1 : root->GetLineNum()}, "root element <" + kind + ">", "<sdf> or <robot>");
+    refuse({"", root->GetLineNum()}, "root element <" + kind + ">", "<sdf> or <robot>");
   }
   urdf_ = kind == "robot";
   if (urdf_) {
@@ -185,12 +188,13 @@ void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link
     refuse({link.name + " inertia", inertial.GetLineNum()}, "no inertia",
            "ixx, iyy, izz and the products of inertia");
   }
-  const double xy = number(*inertia, "ixy", link);
-  const double xz = number(*inertia, "ixz", link);
-  const double yz = number(*inertia, "iyz", link);
-  Eigen::Matrix3d I;
-  I << number(*inertia, "ixx", link), xy, xz, xy, number(*inertia, "iyy", link), yz, xz, yz,
-      number(*inertia, "izz", link);
+  Eigen::Matrix3d I;  // entry by entry: a comma initializer must not be left by an exception
+  I(0, 0) = number(*inertia, "ixx", link);
+  I(1, 1) = number(*inertia, "iyy", link);
+  I(2, 2) = number(*inertia, "izz", link);
+  I(0, 1) = I(1, 0) = number(*inertia, "ixy", link);
+  I(0, 2) = I(2, 0) = number(*inertia, "ixz", link);
+  I(1, 2) = I(2, 1) = number(*inertia, "iyz", link);
   const std::string reason = impossible(I);
   if (!reason.empty()) {
     refuse({link.name + " inertia", inertia->GetLineNum()}, reason,

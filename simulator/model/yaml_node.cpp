@@ -1,8 +1,11 @@
 #include "simulator/model/yaml_node.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
@@ -12,9 +15,39 @@ namespace {
 
 int line_of(const YAML::Mark& mark) { return mark.is_null() ? 0 : mark.line + 1; }
 
-std::vector<YAML::Node> documents(const std::string& text, const std::string& file) {
+/// Lets a parser run without keeping anything.
+class IgnoreEvents final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll() would not end on some texts (",a: b"), because
+/// yaml-cpp's parser does not move past a token that begins no document.
+bool has_second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  IgnoreEvents ignore;
+  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+}
+
+YAML::Node only_document(const std::string& text, const std::string& file) {
   try {
-    return YAML::LoadAll(text);
+    YAML::Node document = YAML::Load(text);
+    if (has_second_document(text)) {
+      throw InputError({file, 0, ""}, "more than one YAML document", "one");
+    }
+    return document;
   } catch (const YAML::Exception& error) {
     throw InputError({file, line_of(error.mark), ""}, "text that is no YAML (" + error.msg + ")",
                      "a whole YAML file");
@@ -41,11 +74,7 @@ YamlNode::YamlNode(YAML::Node node, std::string file, int line, std::string key)
 YamlNode YamlNode::load(const std::string& path) { return parse(read_text(path), path); }
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& file) {
-  const std::vector<YAML::Node> all = documents(text, file);
-  if (all.size() != 1) {
-    throw InputError({file, 0, ""}, std::to_string(all.size()) + " YAML documents", "one");
-  }
-  YamlNode root(all.front(), file, 1, "");
+  YamlNode root(only_document(text, file), file, 1, "");
   if (!root.is_map()) {
     root.refuse("a map of keys, beginning with `plumbline: ...`");
   }

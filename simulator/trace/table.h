@@ -26,10 +26,13 @@ struct Table {
 Table read_csv(const std::string& path);
 
 /// MATLAB v5 or v7.3 (matio): every real vector or matrix variable; a matrix gives columns name_1, name_2 ...
-/// Units are empty: the trial states them. Refuses NaN and infinity in columns when `require_finite` is called.
+/// Kept are those of the longest length (two rows at least); scalars, shorter vectors, texts, cells,
+/// structures, complex and logical arrays are skipped. Units are empty: the trial states them. NaN and
+/// infinity are refused by require_finite, column by column.
 Table read_mat(const std::string& path);
 
-/// Throws InputError when the column is missing (with the nearest names) or holds NaN or infinity (with the row).
+/// Throws InputError when the column is missing (with the nearest names) or holds NaN or infinity (with the
+/// row).
 void require_finite(const Table& table, const std::string& column);
 
 /// By extension (.csv, .mat). Throws InputError on anything else.

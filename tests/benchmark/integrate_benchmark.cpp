@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <string>
 
 #include "simulator/integrate/integrator.h"
 
@@ -55,11 +54,15 @@ class TwoOscillators : public Ode {
   double force = 0.0;
 };
 
-/// A command like that of a controller: smooth, sampled at 1 kHz.
-double command(int sample) { return 20.0 * std::sin(0.02 * sample) + 5.0 * std::sin(0.31 * sample); }
+/// A command as of a controller, sampled at 1 kHz. rough: with a fast part, so that each sample is a large
+/// jump.
+double command(int sample, bool rough) {
+  return 20.0 * std::sin(0.02 * sample) + (rough ? 5.0 * std::sin(0.31 * sample) : 0.0);
+}
 
 template <class System>
-void run_held(benchmark::State& state, System& system, const Options& options, bool keep_history) {
+void run_held(benchmark::State& state, System& system, const Options& options, bool keep_history,
+              bool rough) {
   constexpr int samples = 1000;
   constexpr double period = 1e-3;
   Integrator integrator(system, options);
@@ -67,7 +70,7 @@ void run_held(benchmark::State& state, System& system, const Options& options, b
   for (auto _ : state) {
     integrator.start(0.0, Eigen::VectorXd::Zero(system.size()));
     for (int k = 0; k < samples; ++k) {
-      system.force = command(k);
+      system.force = command(k, rough);
       integrator.input_changed(keep_history);
       integrator.advance(period * (k + 1));
     }
@@ -90,46 +93,68 @@ Options with(Method method) {
   return options;
 }
 
-void two_masses(benchmark::State& state, double stiffness, double damping, Method method, bool keep_history) {
-  TwoMasses system(stiffness, damping);
-  run_held(state, system, with(method), keep_history);
-}
-
-void trivial(benchmark::State& state, Method method, bool keep_history) {
+void two_oscillators(benchmark::State& state, Method method, bool keep_history) {
   TwoOscillators system;
-  run_held(state, system, with(method), keep_history);
+  run_held(state, system, with(method), keep_history, true);
 }
 
-struct Case {
-  std::string name;
-  Method method;
-  bool keep_history;
+struct Stretch {
+  double stiffness, damping;
+  bool rough;
 };
+constexpr Stretch kSoft{1e4, 5.0, true};     // 160 Hz, lightly damped
+constexpr Stretch kStiff{1e7, 100.0, true};  // 5 kHz
+constexpr Stretch kStiffSmooth{1e7, 100.0, false};
+constexpr Stretch kOverdamped{1e5, 2000.0, true};  // 2e5 1/s
+constexpr Stretch kOverdampedSmooth{1e5, 2000.0, false};
 
-void register_all() {
-  const Case cases[] = {{"bdf/restarted", Method::bdf, false},
-                        {"bdf/history", Method::bdf, true},
-                        {"implicit_rk", Method::implicit_rk, true},
-                        {"explicit_rk", Method::explicit_rk, true}};
-  for (const Case& c : cases) {
-    const auto register_one = [&c](const std::string& system, auto run) {
-      benchmark::RegisterBenchmark((system + "/" + c.name).c_str(), run)->Unit(benchmark::kMillisecond);
-    };
-    register_one("trivial", [c](benchmark::State& s) { trivial(s, c.method, c.keep_history); });
-    // 160 Hz lightly damped; 5 kHz; overdamped, 2e4/s.
-    register_one("soft", [c](benchmark::State& s) { two_masses(s, 1e4, 5.0, c.method, c.keep_history); });
-    register_one("stiff", [c](benchmark::State& s) { two_masses(s, 1e7, 100.0, c.method, c.keep_history); });
-    register_one("overdamped",
-                 [c](benchmark::State& s) { two_masses(s, 1e5, 2000.0, c.method, c.keep_history); });
-  }
+void two_masses(benchmark::State& state, Stretch stretch, Method method, bool keep_history) {
+  TwoMasses system(stretch.stiffness, stretch.damping);
+  run_held(state, system, with(method), keep_history, stretch.rough);
 }
+
+BENCHMARK_CAPTURE(two_oscillators, bdf_restarted, Method::bdf, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_oscillators, bdf_history, Method::bdf, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_oscillators, implicit_rk, Method::implicit_rk, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_oscillators, explicit_rk, Method::explicit_rk, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, soft_bdf_restarted, kSoft, Method::bdf, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, soft_bdf_history, kSoft, Method::bdf, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, soft_implicit_rk, kSoft, Method::implicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, soft_explicit_rk, kSoft, Method::explicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_bdf_restarted, kStiff, Method::bdf, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_bdf_history, kStiff, Method::bdf, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_implicit_rk, kStiff, Method::implicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_explicit_rk, kStiff, Method::explicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_smooth_bdf_restarted, kStiffSmooth, Method::bdf, false)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_smooth_bdf_history, kStiffSmooth, Method::bdf, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_smooth_implicit_rk, kStiffSmooth, Method::implicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, stiff_smooth_explicit_rk, kStiffSmooth, Method::explicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_bdf_restarted, kOverdamped, Method::bdf, false)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_bdf_history, kOverdamped, Method::bdf, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_implicit_rk, kOverdamped, Method::implicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_explicit_rk, kOverdamped, Method::explicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_smooth_bdf_restarted, kOverdampedSmooth, Method::bdf, false)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_smooth_bdf_history, kOverdampedSmooth, Method::bdf, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_smooth_implicit_rk, kOverdampedSmooth, Method::implicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(two_masses, overdamped_smooth_explicit_rk, kOverdampedSmooth, Method::explicit_rk, true)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace plumbline::integrate
 
-int main(int argc, char** argv) {
-  plumbline::integrate::register_all();
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
+BENCHMARK_MAIN();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/effects/rk4.h"
 #include "tests/effects/sampling.h"
@@ -16,7 +17,7 @@ std::shared_ptr<const ForceLaw> law_named(const std::string& name) {
 }
 
 /// A mass on the law: {position, velocity} after some time.
-State swing(const ForceLaw& law, const Values& p, double mass, State x, double duration, int steps) {
+State swing(const ForceLaw& law, const Values& p, double mass, const State& x, double duration, int steps) {
   return rk4(
       [&](const State& y) {
         return State{y[1], law.force({y[0], y[1], 0}, nullptr, p.data()) / mass};

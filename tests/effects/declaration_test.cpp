@@ -3,6 +3,7 @@
 #include <udunits2.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 

@@ -1,7 +1,9 @@
 // What a law's declaration writes down is what its code computes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tests/effects/expression.h"
 #include "tests/effects/sampling.h"

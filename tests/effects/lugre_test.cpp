@@ -2,6 +2,7 @@
 // passivity condition of Barabanov and Ortega (2000).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/effects/rk4.h"

@@ -49,6 +49,11 @@ TEST_P(Input, JacobianOrDifferencesGiveTheSame) {
   const Eigen::Vector2d difference = drive(plain, a, GetParam().keep_history, &exact) -
                                      drive(with_jacobian, b, GetParam().keep_history, &exact);
   EXPECT_LT(std::abs(difference[0]), 1e-6);
+  if (GetParam().method != Method::bdf) {
+    EXPECT_EQ(a.summary().restarts, 0);
+  } else if (!GetParam().keep_history) {
+    EXPECT_EQ(a.summary().restarts, 99);  // the first change is at the start
+  }
   if (GetParam().method != Method::explicit_rk) {
     EXPECT_GT(b.summary().jacobian_evaluations, 0);
     EXPECT_LT(b.summary().rate_evaluations, a.summary().rate_evaluations);
@@ -72,9 +77,9 @@ TEST_P(Input, RunsRepeatBitByBit) {
 INSTANTIATE_TEST_SUITE_P(Methods, Input,
                          testing::Values(Held{Method::bdf, true}, Held{Method::bdf, false},
                                          Held{Method::implicit_rk, true}, Held{Method::explicit_rk, true}),
-                         [](const auto& info) {
-                           return to_string(info.param.method) +
-                                  (info.param.keep_history ? "" : "_restarted");
+                         [](const auto& tested) {
+                           return to_string(tested.param.method) +
+                                  (tested.param.keep_history ? "" : "_restarted");
                          });
 
 // Each millisecond one step is enough: one evaluation for each stage, none for the restart.

@@ -29,7 +29,7 @@ class Decay : public SimTK::System {
 
 TEST(Link, BothFindTheirOwnSundials) {
   const Decay decay;
-  const SimTK::State initial = decay.realizeTopology();
+  const SimTK::State& initial = decay.realizeTopology();
   SimTK::CPodesIntegrator cpodes(decay);
   cpodes.setAccuracy(1e-8);
   cpodes.initialize(initial);

@@ -95,7 +95,8 @@ TEST_P(Failure, TooManySteps) {
   options.max_steps = 10;
   Integrator integrator(kepler, options);
   integrator.start(0.0, Kepler::perihelion(0.3));
-  EXPECT_THAT(message_of<std::runtime_error>([&] { integrator.advance(100.0); }), HasSubstr("10"));
+  EXPECT_THAT(message_of<std::runtime_error>([&] { integrator.advance(100.0); }),
+              HasSubstr("max_steps = 10 steps do not reach t = 100 s"));
 }
 
 TEST_P(Failure, GoingBack) {
@@ -124,10 +125,10 @@ TEST_P(Failure, ExceptionsOfTheOdePassThrough) {
 TEST_P(Failure, DoesNotSpoilTheNextStart) {
   Kepler kepler;
   Options options = with(GetParam(), 1e-8);
-  options.max_steps = 50;
+  options.max_steps = 500;
   Integrator integrator(kepler, options);
   integrator.start(0.0, Kepler::perihelion(0.3));
-  EXPECT_THROW(integrator.advance(100.0), std::runtime_error);
+  EXPECT_THROW(integrator.advance(1000.0), std::runtime_error);
   integrator.start(0.0, Kepler::perihelion(0.3));
   integrator.advance(0.5);
   EXPECT_LT((integrator.state().head(2) - Kepler::position(0.3, 0.5)).norm(), 1e-6);
@@ -152,7 +153,7 @@ TEST_P(Failure, RatesThatAreNotFiniteShortenTheStep) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Failure,
                          testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk),
-                         [](const auto& info) { return to_string(info.param); });
+                         [](const auto& tested) { return to_string(tested.param); });
 
 }  // namespace
 }  // namespace plumbline::integrate

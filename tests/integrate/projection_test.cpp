@@ -97,7 +97,7 @@ TEST_P(Projection, IsNeeded) { EXPECT_GT(run(GetParam(), 1e-6, false).drift, 1e-
 
 INSTANTIATE_TEST_SUITE_P(Methods, Projection,
                          testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk),
-                         [](const auto& info) { return to_string(info.param); });
+                         [](const auto& tested) { return to_string(tested.param); });
 
 }  // namespace
 }  // namespace plumbline::integrate

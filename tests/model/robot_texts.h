@@ -109,4 +109,48 @@ sensors:
     offset: {value: 2, unit: mm, source: "data sheet"}
 )";
 
+inline const std::string kOverlay = R"(plumbline: model/1
+base: model.yaml
+note: "added by a test"
+effects:
+  - effect: payload
+    at: lower
+    values:
+      mass: {value: 500, unit: g, uncertainty: 5 %, assumed: "a start"}
+  - {effect: stretch, at: rail, values: {stiffness: {value: .inf, unit: N m/rad, source: "rigid"}}}
+values:
+  drag@mTip:damping: {value: 0.2, unit: N m s/rad, uncertainty: 0.01, source: "fit"}
+  "stop@rail#2:stiffness": {value: 7, unit: N/mm, source: "fit"}
+)";
+
+/// An arm with turned joint and inertial frames, massless base and tool.
+inline const std::string kUrdf = R"(<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"/>
+  <link name="arm">
+    <inertial>
+      <origin xyz="0.1 0 0" rpy="0 0 0.5"/><mass value="2"/>
+      <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+    <visual><geometry><mesh filename="none.stl"/></geometry></visual>
+  </link>
+  <link name="load">
+    <inertial><mass value="3"/><inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="tool"/>
+  <joint name="turn" type="continuous">
+    <origin xyz="0 0 1" rpy="0.3 0 0"/><parent link="base"/><child link="arm"/><axis xyz="0 2 0"/>
+  </joint>
+  <joint name="weld" type="fixed"><origin xyz="0.2 0 0"/><parent link="arm"/><child link="load"/></joint>
+  <joint name="flange" type="fixed"><origin xyz="0 0 0.1"/><parent link="load"/><child link="tool"/></joint>
+</robot>
+)";
+
+inline const std::string kCsv = R"(t [s],q mLA [rad], u [N m]
+0,0.1,-2.5e-3
+0.001,"0.2",+3
+0.002,.3,0
+0.003,0.4,1e2
+)";
+
 }  // namespace plumbline::test

@@ -15,29 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// An arm with turned joint and inertial frames, as URDF and as SDFormat.
-constexpr const char* kUrdf = R"(<?xml version="1.0"?>
-<robot name="arm">
-  <link name="base"/>
-  <link name="arm">
-    <inertial>
-      <origin xyz="0.1 0 0" rpy="0 0 0.5"/><mass value="2"/>
-      <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <visual><geometry><mesh filename="none.stl"/></geometry></visual>
-  </link>
-  <link name="load">
-    <inertial><mass value="3"/><inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
-  </link>
-  <link name="tool"/>
-  <joint name="turn" type="continuous">
-    <origin xyz="0 0 1" rpy="0.3 0 0"/><parent link="base"/><child link="arm"/><axis xyz="0 2 0"/>
-  </joint>
-  <joint name="weld" type="fixed"><origin xyz="0.2 0 0"/><parent link="arm"/><child link="load"/></joint>
-  <joint name="flange" type="fixed"><origin xyz="0 0 0.1"/><parent link="load"/><child link="tool"/></joint>
-</robot>
-)";
-
+// The arm of kUrdf as SDFormat.
 constexpr const char* kSdf = R"(<?xml version="1.0"?>
 <sdf version="1.9">
   <world name="w">
@@ -56,7 +34,7 @@ constexpr const char* kSdf = R"(<?xml version="1.0"?>
           <inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.25</izz></inertia>
         </inertial>
       </link>
-      <joint name="weld" type="fixed"><parent>arm</parent><child>load</child></joint>
+      <joint name="weld" type="fixed"><pose>0 0 0.3 0 0 0</pose><parent>arm</parent><child>load</child></joint>
       <joint name="turn" type="revolute">
         <pose relative_to="base">0 0 1 0.3 0 0</pose><parent>base</parent><child>arm</child>
         <axis><xyz>0 2 0</xyz></axis>
@@ -112,7 +90,7 @@ void expect_tree(const Skeleton& skeleton) {
 }
 
 TEST_F(SkeletonTest, ReadsUrdfAndKeepsEveryLink) {
-  const Skeleton skeleton = read("arm.urdf", kUrdf);
+  const Skeleton skeleton = read("arm.urdf", test::kUrdf);
   ASSERT_EQ(skeleton.bodies.size(), 4U);
   expect_tree(skeleton);
   EXPECT_EQ(skeleton.bodies[0].name, "base");
@@ -145,7 +123,7 @@ TEST_F(SkeletonTest, JointsToTheWorldKeepTheirType) {
 }
 
 TEST_F(SkeletonTest, AUrdfRootNamedWorldIsTheWorld) {
-  std::string text = kUrdf;
+  std::string text = test::kUrdf;
   for (std::size_t at = text.find("\"base\""); at != std::string::npos; at = text.find("\"base\"")) {
     text.replace(at, 6, "\"world\"");
   }
@@ -164,7 +142,7 @@ struct Bad {
 
 TEST_F(SkeletonTest, RefusesBadSkeletonsInOneLine) {
   const std::string sdf = test::kSkeleton;
-  const std::string urdf = kUrdf;
+  const std::string urdf = test::kUrdf;
   const std::vector<Bad> table{
       {sdf, "<mass>4</mass>", "<mass>-4</mass>", 6, "cart mass", "-4 kg", "a mass above zero"},
       {sdf, "<mass>4</mass>", "<mass>four</mass>", 6, "cart mass", "\"four\"", "a finite number"},

@@ -52,7 +52,7 @@ inline effects::Catalogue test_catalogue() {
       law("stop", {Place::coordinate},
           {parameter("stiffness", "{force}/{position}", 0, 0, inf),
            parameter("position", "{position}", 0, -inf, inf), side},
-          {0, 0, -1}),
+          {100, 0.1, -1}),
       law("stretch", {Place::ratio},
           {parameter("stiffness", "{force}/{position}", inf, 0, inf),
            parameter("damping", "{force} s/{position}", 0, 0, inf)},

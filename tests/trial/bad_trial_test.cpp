@@ -169,8 +169,26 @@ INSTANTIATE_TEST_SUITE_P(
                  "{value: 10, unit: V}",
                  "{value: 0, unit: V}",
                  {"trial.yaml:23", "above zero"}},
-        BadInput{"event_without_unit", false, "[0.1 s", "[0.1", {"trial.yaml:24", "\"0.1\"", "unit"}},
-        BadInput{"events_out_of_order", false, "[0.1 s", "[0.25 s", {"trial.yaml:24", "rise"}},
+        BadInput{"velocity_over_three",
+                 false,
+                 "velocity_over: 2",
+                 "velocity_over: 3",
+                 {"trial.yaml:24", "1 or 2"}},
+        BadInput{"velocity_over_half",
+                 false,
+                 "velocity_over: 2",
+                 "velocity_over: 1.5",
+                 {"trial.yaml:24", "1 or 2"}},
+        BadInput{
+            "second_controller_of_a_motor",
+            false,
+            "events: [0.1 s, 200 ms]\n",
+            "  - {kind: cascade_pd, motor: drive, sensor: place, reference: {column: reference}, "
+            "position_gain: "
+            "{value: 1, unit: 1/s, source: test}, velocity_gain: {value: 1, unit: V s/m, source: test}}\n",
+            {"trial.yaml:25: controllers.2", "second controller of motor drive", "one for each"}},
+        BadInput{"event_without_unit", false, "[0.1 s", "[0.1", {"trial.yaml:25", "\"0.1\"", "unit"}},
+        BadInput{"events_out_of_order", false, "[0.1 s", "[0.25 s", {"trial.yaml:25", "rise"}},
         BadInput{"event_outside", false, "200 ms", "200 s", {"events", "200 s", "within the recording"}}),
     [](const auto& bad) { return std::string(bad.param.name); });
 

@@ -115,6 +115,7 @@ controllers:
     position_gain: {value: 160, unit: 1/s, source: test}
     velocity_gain: {value: 0.25, unit: V s/mm, source: test}
     command_limit: {value: 10, unit: V}
+    velocity_over: 2
 events: [0.1 s, 200 ms]
 )";
 }

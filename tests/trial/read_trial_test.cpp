@@ -48,6 +48,7 @@ TEST_F(ReadTrial, EverythingComesOutInSi) {
   EXPECT_NEAR(trial.controllers[0].command_limit, 10, 1e-12);
   EXPECT_NEAR(trial.controllers[0].reference[5], 0.015, 1e-12);
   EXPECT_EQ(trial.controllers[0].disturbance.size(), 0);
+  EXPECT_EQ(trial.controllers[0].velocity_over, 2);
   ASSERT_EQ(trial.events.size(), 2U);
   EXPECT_NEAR(trial.events[1], 0.2, 1e-12);
 }

@@ -58,6 +58,7 @@ TEST_F(WriteTrial, ComesBackTheSame) {
   EXPECT_DOUBLE_EQ(back.controllers[0].position_gain, trial.controllers[0].position_gain);
   EXPECT_DOUBLE_EQ(back.controllers[0].velocity_gain, trial.controllers[0].velocity_gain);
   EXPECT_DOUBLE_EQ(back.controllers[0].command_limit, trial.controllers[0].command_limit);
+  EXPECT_EQ(back.controllers[0].velocity_over, 2);
   expect_near(back.controllers[0].reference, trial.controllers[0].reference);
   expect_near(back.controllers[0].disturbance, trial.controllers[0].disturbance);
   EXPECT_EQ(back.events, trial.events);
@@ -83,10 +84,12 @@ TEST_F(WriteTrial, RefusesWhatIsThereAndLeavesItAlone) {
   const Trial trial = original();
   const std::string before = file_text(folder / "original" / "data.csv");
   const std::string message = input_error([&] { write_trial(trial, robot, (folder / "original").string()); });
-  EXPECT_NE(message.find("not empty"), std::string::npos) << message;
+  EXPECT_NE(message.find("found a folder that is not empty, expected a new folder"), std::string::npos)
+      << message;
   EXPECT_EQ(file_text(folder / "original" / "data.csv"), before);
   write_file(folder / "file", "mine");
-  EXPECT_NE(input_error([&] { write_trial(trial, robot, (folder / "file").string()); }), "");
+  const std::string of_file = input_error([&] { write_trial(trial, robot, (folder / "file").string()); });
+  EXPECT_NE(of_file.find("found a file of this name, expected a new folder"), std::string::npos) << of_file;
   EXPECT_EQ(file_text(folder / "file"), "mine");
   EXPECT_EQ(entries(), 2);
 }
@@ -145,7 +148,9 @@ TEST_F(WriteTrial, TemplatesOptionalKeysAreReadable) {
 TEST_F(WriteTrial, TemplateDoesNotOverwrite) {
   new_trial_template((folder / "template").string());
   write_file(folder / "template" / "trial.yaml", "mine");
-  EXPECT_NE(input_error([&] { new_trial_template((folder / "template").string()); }).find("not empty"),
+  EXPECT_NE(input_error([&] {
+              new_trial_template((folder / "template").string());
+            }).find("found a folder that is not empty, expected a new folder"),
             std::string::npos);
   EXPECT_EQ(file_text(folder / "template" / "trial.yaml"), "mine");
 }

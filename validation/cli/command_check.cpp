@@ -1,7 +1,66 @@
+#include <filesystem>
+
+#include "simulator/model/robot_file.h"
+#include "simulator/model/yaml_node.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/describe.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
+#include "validation/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
+namespace {
 
-void add_check(CLI::App& /*app*/, Outcome& /*outcome*/) {}
+struct Options {
+  std::string path, model, data_folder, json;
+};
+
+/// A folder, or a file that calls itself a trial; otherwise it must call itself a model.
+bool is_trial(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    return true;
+  }
+  const model::YamlNode kind = model::YamlNode::load(path).at("plumbline");
+  if (kind.text() != "trial/1" && kind.text() != "model/1") {
+    kind.refuse("model/1 or trial/1");
+  }
+  return kind.text() == "trial/1";
+}
+
+void run(const Options& options) {
+  const effects::Catalogue catalogue = effects::Catalogue::all();
+  if (!is_trial(options.path)) {
+    const model::Model model = model::read_model(options.path, catalogue);
+    const Freedom freedom = freedom_of(model, {});
+    write_json(to_json(model, freedom), options.json);
+    print(model, freedom);
+    return;
+  }
+  const std::string file = options.model.empty() ? validation::model_of_trial(options.path) : options.model;
+  const model::Model model = model::read_model(file, catalogue);
+  const validation::Trial trial = validation::read_trial(options.path, model, {options.data_folder});
+  const Freedom freedom = freedom_of(model, trial.locks);
+  validation::check_command_units(model, trial);
+  write_json(to_json(trial, model, freedom), options.json);
+  print(trial, model, freedom);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Outcome& /*outcome*/) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("check", "Read and validate a model or a trial, and say what it is");
+  command->add_option("path", options->path, "model file, trial folder or trial.yaml")
+      ->required()
+      ->type_name("MODEL|TRIAL");
+  command->add_option("--model", options->model, "for a trial: model file in place of the one it names")
+      ->type_name("FILE");
+  command->add_option("--data", options->data_folder, "for a trial: folder with its data files")
+      ->type_name("DIR");
+  add_json_option(*command, options->json);
+  command->footer("Example:\n  plumbline check robots/mabel/leg_bench.yaml");
+  command->callback([options] { run(*options); });
+}
 
 }  // namespace plumbline::cli

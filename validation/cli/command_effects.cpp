@@ -1,7 +1,156 @@
+#include <fmt/core.h>
+
+#include "simulator/effects/documentation.h"
+#include "simulator/trace/error.h"
+#include "simulator/trace/number_text.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
 
 namespace plumbline::cli {
+namespace {
 
-void add_effects(CLI::App& /*app*/, Outcome& /*outcome*/) {}
+using effects::Declaration;
+using effects::Parameter;
+
+std::string to_string(effects::Scale scale) {
+  switch (scale) {
+    case effects::Scale::linear:
+      return "linear";
+    case effects::Scale::logarithm:
+      return "logarithm";
+    case effects::Scale::reciprocal:
+      break;
+  }
+  return "reciprocal";
+}
+
+nlohmann::json to_json(const Parameter& parameter) {
+  return {{"name", parameter.name},
+          {"meaning", parameter.meaning},
+          {"rotary_unit", effects::unit_at(parameter.unit, true)},
+          {"linear_unit", effects::unit_at(parameter.unit, false)},
+          {"null_value", json_number(parameter.null_value)},
+          {"lower", json_number(parameter.lower)},
+          {"upper", json_number(parameter.upper)},
+          {"scale", to_string(parameter.scale)},
+          {"structural", parameter.structural}};
+}
+
+nlohmann::json to_json(const Declaration& law) {
+  nlohmann::json json{{"name", law.name},
+                      {"summary", law.summary},
+                      {"equation", law.equation},
+                      {"source", law.source},
+                      {"states", law.states},
+                      {"power_note", law.power_note},
+                      {"places", nlohmann::json::array()},
+                      {"parameters", nlohmann::json::array()}};
+  for (const effects::Place place : law.places) {
+    json["places"].push_back(effects::to_string(place));
+  }
+  for (const Parameter& parameter : law.parameters) {
+    json["parameters"].push_back(to_json(parameter));
+  }
+  return json;
+}
+
+/// Infinity as people write it.
+std::string number(double value) {
+  const std::string text = number_text(value);
+  return text == ".inf" ? "inf" : text == "-.inf" ? "-inf" : text;
+}
+
+std::string places_of(const Declaration& law) {
+  std::string text;
+  for (const effects::Place place : law.places) {
+    text += (text.empty() ? "" : ", ") + effects::to_string(place);
+  }
+  return text;
+}
+
+void print_short(const Declaration& law) {
+  fmt::print("{} (at: {})\n  {}\n  {}\n", law.name, places_of(law), law.summary, law.equation);
+  for (const Parameter& parameter : law.parameters) {
+    fmt::print("    {} [{}] {} to {}, {} {}\n", parameter.name, effects::unit_in_words(parameter.unit),
+               number(parameter.lower), number(parameter.upper),
+               parameter.structural ? "fixed, usually" : "null", number(parameter.null_value));
+  }
+  fmt::print("  source: {}\n\n", law.source);
+}
+
+void print_details(const Declaration& law) {
+  fmt::print("{}: {}\n\nSits at:  {}\nEquation: {}\nSource:   {}\n", law.name, law.summary, places_of(law),
+             law.equation, law.source);
+  for (const std::string& state : law.states) {
+    fmt::print("State:    {}\n", state);
+  }
+  if (!law.power_note.empty()) {
+    fmt::print("Energy:   {}\n", law.power_note);
+  }
+  fmt::print("\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const Parameter& parameter : law.parameters) {
+    rows.push_back({parameter.name, effects::unit_in_words(parameter.unit), number(parameter.null_value),
+                    number(parameter.lower), number(parameter.upper),
+                    parameter.structural ? "never fitted" : "by its " + to_string(parameter.scale),
+                    parameter.meaning});
+  }
+  print_table({"parameter", "unit", "null", "lower", "upper", "searched", "meaning"}, rows);
+}
+
+/// All laws, or the named one.
+effects::Catalogue chosen(const std::string& name) {
+  effects::Catalogue catalogue = effects::Catalogue::all();
+  if (name.empty()) {
+    return catalogue;
+  }
+  const auto law = catalogue.find(name);
+  if (law == nullptr) {
+    std::vector<std::string> known;
+    for (const auto& one : catalogue.laws()) {
+      known.push_back(one->declaration().name);
+    }
+    throw InputError({"", 0, "effects"}, "\"" + name + "\"",
+                     "an effect of the catalogue" + nearest_names(name, known));
+  }
+  return effects::Catalogue({law});
+}
+
+struct Options {
+  std::string name, json;
+  bool markdown = false;
+};
+
+void run(const Options& options) {
+  const effects::Catalogue catalogue = chosen(options.name);
+  nlohmann::json json{{"effects", nlohmann::json::array()}};
+  for (const auto& law : catalogue.laws()) {
+    json["effects"].push_back(to_json(law->declaration()));
+  }
+  write_json(json, options.json);
+  if (options.markdown) {
+    fmt::print("{}", effects::documentation_table(catalogue));
+    return;
+  }
+  for (const auto& law : catalogue.laws()) {
+    options.name.empty() ? print_short(law->declaration()) : print_details(law->declaration());
+  }
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app, Outcome& /*outcome*/) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("effects", "The catalogue of effects: place, parameters, equation, source");
+  command->add_option("name", options->name, "the effect to describe in full; none: all of them")
+      ->type_name("NAME");
+  command->add_flag("--markdown", options->markdown, "print the table of the documentation");
+  add_json_option(*command, options->json);
+  command->footer("Example:\n  plumbline effects cable_stretch");
+  command->callback([options] { run(*options); });
+}
 
 }  // namespace plumbline::cli

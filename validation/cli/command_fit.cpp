@@ -1,7 +1,181 @@
+#include <fmt/core.h>
+
+#include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
+#include "validation/fit/fit.h"
 
 namespace plumbline::cli {
+namespace {
 
-void add_fit(CLI::App& /*app*/, Outcome& /*outcome*/) {}
+using validation::Doubt;
+using validation::Fit;
+using validation::FittedParameter;
+
+struct Options {
+  Inputs inputs;
+  std::vector<std::string> free;
+  std::string out;
+  validation::FitOptions fit;
+};
+
+nlohmann::json to_json(const FittedParameter& parameter) {
+  nlohmann::json json{{"label", parameter.label},
+                      {"unit", parameter.unit},
+                      {"before", json_number(parameter.before)},
+                      {"after", json_number(parameter.after)},
+                      {"standard_deviation", json_number(parameter.deviation)},
+                      {"interval", {json_number(parameter.lower), json_number(parameter.upper)}},
+                      {"partner", parameter.partner},
+                      {"correlation", parameter.correlation},
+                      {"doubts", nlohmann::json::array()}};
+  for (const Doubt& doubt : parameter.doubts) {
+    json["doubts"].push_back({{"kind", doubt.kind}, {"text", doubt.text}});
+  }
+  return json;
+}
+
+/// A score of trials that are not there is null.
+nlohmann::json to_json(const validation::Scores& scores, const validation::Data& data) {
+  nlohmann::json json{{"train", scores.train}, {"held_out", nullptr}};
+  if (data.has(validation::Role::held_out)) {
+    json["held_out"] = scores.held_out;
+  }
+  return json;
+}
+
+nlohmann::json to_json(const Fit& fit, const Loaded& loaded, const Options& options) {
+  nlohmann::json json{{"model", loaded.model.file},
+                      {"trials", options.inputs.trials},
+                      {"before", to_json(fit.before, *loaded.data)},
+                      {"after", to_json(fit.after, *loaded.data)},
+                      {"windows", fit.windows},
+                      {"degrees_of_freedom", fit.degrees_of_freedom},
+                      {"confidence", options.fit.confidence},
+                      {"iterations", fit.iterations},
+                      {"converged", fit.converged},
+                      {"parameters", nlohmann::json::array()}};
+  for (const FittedParameter& parameter : fit.parameters) {
+    json["parameters"].push_back(to_json(parameter));
+  }
+  if (!options.out.empty()) {
+    json["saved"] = options.out;
+  }
+  return json;
+}
+
+std::string partner_text(const FittedParameter& parameter) {
+  return parameter.partner.empty() ? ""
+                                   : fmt::format("{:.2f} with {}", parameter.correlation, parameter.partner);
+}
+
+void print_doubts(const Fit& fit) {
+  bool any = false;
+  for (const FittedParameter& parameter : fit.parameters) {
+    for (const Doubt& doubt : parameter.doubts) {
+      if (!any) {
+        fmt::print("\nWhat these data cannot tell:\n");
+        any = true;
+      }
+      fmt::print("  {}: {}\n", parameter.label, doubt.text);
+    }
+  }
+  if (!any) {
+    fmt::print("\nThe data tell every one of these parameters.\n");
+  }
+}
+
+void print(const Fit& fit, const Loaded& loaded, const Options& options) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FittedParameter& p : fit.parameters) {
+    rows.push_back({p.label, p.unit, fmt::format("{:.4g}", p.before), fmt::format("{:.4g}", p.after),
+                    fmt::format("{:.4g} to {:.4g}", p.lower, p.upper), partner_text(p)});
+  }
+  print_table({"parameter", "unit", "before", "after",
+               fmt::format("{:g} % interval", 100.0 * options.fit.confidence), "strongest correlation"},
+              rows);
+  fmt::print("\nIntervals from the scatter between {} windows ({} degrees of freedom).\n", fit.windows,
+             fit.degrees_of_freedom);
+  if (!fit.converged) {
+    fmt::print("Not settled after {} iterations: the values may still move (--iterations).\n",
+               fit.iterations);
+  }
+  print_doubts(fit);
+  fmt::print("\nError in units of the floor: train {:.3f} before, {:.3f} after", fit.before.train,
+             fit.after.train);
+  if (loaded.data->has(validation::Role::held_out)) {
+    fmt::print("; held-out {:.3f} before, {:.3f} after\n", fit.before.held_out, fit.after.held_out);
+  } else {
+    fmt::print("; no held-out trial\n");
+  }
+  if (!options.out.empty()) {
+    fmt::print("Model with the new values: {}\n", options.out);
+  }
+}
+
+/// "fit on chirp, steps": the trials that were fitted.
+std::string source_text(const validation::Data& data) {
+  std::string text;
+  for (const validation::Trial& trial : data.trials) {
+    if (trial.role == validation::Role::train) {
+      text += (text.empty() ? "fit on " : ", ") + trial.name;
+    }
+  }
+  return text;
+}
+
+void save_model(const Fit& fit, const Loaded& loaded, const std::string& file) {
+  const std::string source = source_text(*loaded.data);
+  std::vector<model::NewValue> values;
+  for (const FittedParameter& parameter : fit.parameters) {
+    if (parameter.seen()) {
+      values.push_back({parameter.label, parameter.after, parameter.deviation, parameter.unit, source});
+    }
+  }
+  model::write_overlay(file, loaded.model.file, {}, values, "values " + source);
+}
+
+void run(const Options& options) {
+  check_writable(options.out);
+  check_writable(options.inputs.json);
+  const Loaded loaded = load(options.inputs, effects::Catalogue::all());
+  check_not_an_input(options.out, loaded.model.lineage);
+  const auto parameters = validation::matching(validation::free_parameters(loaded.model), options.free);
+  Fit fit;
+  {
+    ProgressLine progress;
+    fit = validation::fit(loaded.model, *loaded.data, parameters, options.fit, progress.callback());
+  }
+  if (!options.out.empty()) {
+    save_model(fit, loaded, options.out);
+  }
+  write_json(to_json(fit, loaded, options), options.inputs.json);
+  print(fit, loaded, options);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, Outcome& /*outcome*/) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("fit", "Estimate parameters, how sure they are, and what the data cannot tell");
+  add_trial_inputs(*command, options->inputs);
+  command
+      ->add_option(
+          "--free", options->free,
+          "parameters to fit: a pattern (* and ?) over EFFECT@PLACE:PARAMETER; may be given several times")
+      ->required()
+      ->type_name("PATTERN");
+  command->add_option("-o,--out", options->out, "write the fitted values as an overlay on the model")
+      ->type_name("FILE");
+  command->add_option("--iterations", options->fit.iterations, "most iterations of the solver")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->footer(
+      "Example:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml");
+  command->callback([options] { run(*options); });
+}
 
 }  // namespace plumbline::cli

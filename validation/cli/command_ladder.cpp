@@ -1,7 +1,342 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
+#include "validation/closed_loop/closed_loop.h"
+#include "validation/closed_loop/reference.h"
+#include "validation/compare/compare.h"
+#include "validation/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
+namespace {
 
-void add_ladder(CLI::App& /*app*/, Outcome& /*outcome*/) {}
+namespace fs = std::filesystem;
+using validation::ClosedLoop;
+using validation::InverseModel;
+using validation::LoopError;
+using validation::NeededForce;
+using validation::ReferenceValue;
+using validation::Scores;
+using validation::Trial;
+
+constexpr double kWorthSaying = 0.005;  // share by which a recorded disturbance may differ from its column
+
+struct LadderInputs {
+  Inputs inputs;
+  std::vector<std::string> models;
+};
+
+/// What is said about one trial beside the window scores.
+struct TrialErrors {
+  std::string trial, data;
+  validation::Role role = validation::Role::train;
+  ClosedLoop loop;
+  InverseModel inverse;
+};
+
+struct Rung {
+  std::string file, name;
+  std::vector<std::string> lineage;
+  bool has_train = false, has_held_out = false;
+  Scores scores;
+  std::vector<TrialErrors> trials;
+};
+
+/// The file's name, and the effects that it has and the model below it has not.
+std::string rung_name(const model::Model& model, const std::set<std::string>& known) {
+  std::string name = fs::path(model.file).filename().string();
+  for (const model::EffectUse& use : model.effects) {
+    const std::string label = use.law->declaration().name + "@" + use.at;
+    if (!known.empty() && known.count(label) == 0) {
+      name += " + " + label;
+    }
+  }
+  return name;
+}
+
+std::set<std::string> effects_of(const model::Model& model) {
+  std::set<std::string> labels{""};  // never empty, so that a bare model counts as known
+  for (const model::EffectUse& use : model.effects) {
+    labels.insert(use.law->declaration().name + "@" + use.at);
+  }
+  return labels;
+}
+
+std::vector<std::string> model_files(const LadderInputs& ladder) {
+  if (ladder.models.size() > 1) {
+    return ladder.models;
+  }
+  const std::string file = ladder.models.empty() ? validation::model_of_trial(ladder.inputs.trials.front())
+                                                 : ladder.models.front();
+  return model::read_model(file, effects::Catalogue::all()).lineage;
+}
+
+Rung climb(const Loaded& loaded, const std::set<std::string>& known) {
+  Rung rung;
+  rung.file = loaded.model.file;
+  rung.lineage = loaded.model.lineage;
+  rung.name = rung_name(loaded.model, known);
+  rung.has_train = loaded.data->has(validation::Role::train);
+  rung.has_held_out = loaded.data->has(validation::Role::held_out);
+  rung.scores = validation::compare(loaded.model, *loaded.data).scores;
+  for (const Trial& trial : loaded.data->trials) {
+    rung.trials.push_back({trial.name, fs::path(trial.data_file).filename().string(), trial.role,
+                           validation::closed_loop(loaded.model, trial, loaded.data->predict),
+                           validation::inverse_model(loaded.model, trial, {})});
+  }
+  return rung;
+}
+
+nlohmann::json to_json(const ClosedLoop& loop) {
+  nlohmann::json json{{"not_available", loop.not_available}, {"loops", nlohmann::json::array()}};
+  for (const LoopError& error : loop.loops) {
+    json["loops"].push_back({{"motor", error.motor},
+                             {"sensor", error.sensor},
+                             {"position_percent", error.position_percent},
+                             {"force_percent", error.force_percent},
+                             {"equation_rms", error.equation_rms},
+                             {"disturbance_factor", error.disturbance_factor}});
+  }
+  return json;
+}
+
+nlohmann::json to_json(const InverseModel& inverse) {
+  nlohmann::json json{{"not_available", inverse.not_available}, {"motors", nlohmann::json::array()}};
+  for (const NeededForce& force : inverse.motors) {
+    json["motors"].push_back({{"motor", force.motor}, {"force_percent", force.error_percent()}});
+  }
+  return json;
+}
+
+nlohmann::json to_json(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& published) {
+  nlohmann::json json{{"models", nlohmann::json::array()}, {"published", nlohmann::json::array()}};
+  for (const Rung& rung : rungs) {
+    nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
+    model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
+    model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
+    for (const TrialErrors& trial : rung.trials) {
+      model["trials"].push_back({{"trial", trial.trial},
+                                 {"data", trial.data},
+                                 {"role", to_string(trial.role)},
+                                 {"closed_loop", to_json(trial.loop)},
+                                 {"inverse_model", to_json(trial.inverse)}});
+    }
+    json["models"].push_back(model);
+  }
+  for (const ReferenceValue& value : published) {
+    json["published"].push_back({{"compares", to_string(value.quantity)},
+                                 {"model", value.model},
+                                 {"data", value.data},
+                                 {"percent", value.percent},
+                                 {"source", value.source}});
+  }
+  return json;
+}
+
+/// One column of errors in %: a quantity of a trial, and of a motor where the trial has several.
+struct ErrorColumn {
+  std::string head;
+  std::string data;
+  ReferenceValue::Quantity quantity;
+  std::size_t trial, item;
+};
+
+std::optional<double> value_of(const Rung& rung, const ErrorColumn& column) {
+  const TrialErrors& trial = rung.trials[column.trial];
+  if (column.quantity == ReferenceValue::Quantity::inverse_force) {
+    return column.item < trial.inverse.motors.size()
+               ? std::optional<double>(trial.inverse.motors[column.item].error_percent())
+               : std::nullopt;
+  }
+  if (column.item >= trial.loop.loops.size()) {
+    return std::nullopt;
+  }
+  const LoopError& error = trial.loop.loops[column.item];
+  return column.quantity == ReferenceValue::Quantity::closed_loop_position ? error.position_percent
+                                                                           : error.force_percent;
+}
+
+/// The longest of a trial's result lists over all models: what one model lacks another may have.
+template <typename Item, typename List>
+std::vector<Item> longest(const std::vector<Rung>& rungs, std::size_t trial, const List& list_of) {
+  std::vector<Item> longest;
+  for (const Rung& rung : rungs) {
+    const std::vector<Item>& items = list_of(rung.trials[trial]);
+    longest = items.size() > longest.size() ? items : longest;
+  }
+  return longest;
+}
+
+/// Columns that any of the models can fill. "[2] force mLA": trial 2, motor mLA (named where there are
+/// several).
+std::vector<ErrorColumn> error_columns(const std::vector<Rung>& rungs) {
+  using Quantity = ReferenceValue::Quantity;
+  std::vector<ErrorColumn> columns;
+  for (std::size_t t = 0; t < rungs.front().trials.size(); ++t) {
+    const std::string& data = rungs.front().trials[t].data;
+    const auto add = [&](const char* what, const std::string& motor, Quantity quantity, std::size_t item) {
+      columns.push_back({fmt::format("[{}] {}{}", t + 1, what, motor), data, quantity, t, item});
+    };
+    const auto loops = longest<LoopError>(
+        rungs, t, [](const TrialErrors& e) -> const std::vector<LoopError>& { return e.loop.loops; });
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const std::string motor = loops.size() > 1 ? " " + loops[i].motor : "";
+      add("position", motor, Quantity::closed_loop_position, i);
+      add("force", motor, Quantity::closed_loop_force, i);
+    }
+    const auto motors = longest<NeededForce>(
+        rungs, t, [](const TrialErrors& e) -> const std::vector<NeededForce>& { return e.inverse.motors; });
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+      add("inverse", motors.size() > 1 ? " " + motors[i].motor : "", Quantity::inverse_force, i);
+    }
+  }
+  return columns;
+}
+
+std::string score_text(bool has, double score) {
+  return !has ? "-" : score < 1000.0 ? fmt::format("{:.3f}", score) : fmt::format("{:.0f}", score);
+}
+
+std::string percent_text(std::optional<double> percent) {
+  return percent ? fmt::format("{:.3g}", *percent) : "-";
+}
+
+/// One row for each model that was published, where it has a value for one of the columns.
+std::vector<std::vector<std::string>> published_rows(const std::vector<ReferenceValue>& published,
+                                                     const std::vector<ErrorColumn>& columns) {
+  std::vector<std::string> models;
+  for (const ReferenceValue& value : published) {
+    if (std::find(models.begin(), models.end(), value.model) == models.end()) {
+      models.push_back(value.model);
+    }
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& model : models) {
+    std::vector<std::string> row{"published: " + model, "-", "-"};
+    bool any = false;
+    for (const ErrorColumn& column : columns) {
+      std::optional<double> percent;
+      for (const ReferenceValue& value : published) {
+        if (value.model == model && value.data == column.data && value.quantity == column.quantity) {
+          percent = value.percent;
+        }
+      }
+      any = any || percent.has_value();
+      row.push_back(percent_text(percent));
+    }
+    if (any) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+void print_notes(const std::vector<Rung>& rungs) {
+  std::set<std::string> notes;
+  for (const Rung& rung : rungs) {
+    for (const TrialErrors& trial : rung.trials) {
+      if (!trial.inverse.not_available.empty()) {
+        notes.insert(fmt::format("{}, {}: no inverse model, {}.", rung.name, trial.trial,
+                                 trial.inverse.not_available));
+      }
+      if (!trial.loop.not_available.empty()) {
+        notes.insert(fmt::format("{}: no closed loop, {}.", trial.trial, trial.loop.not_available));
+      }
+      for (const LoopError& error : trial.loop.loops) {
+        if (error.disturbance_factor != 0.0 && std::abs(error.disturbance_factor - 1.0) > kWorthSaying) {
+          notes.insert(
+              fmt::format("{}: the recorded command of {} shows a disturbance {:.4f} times its column "
+                          "(least squares on the controller's own equation); the column is used as it is.",
+                          trial.trial, error.motor, error.disturbance_factor));
+        }
+      }
+    }
+  }
+  for (const std::string& note : notes) {
+    fmt::print("{}\n", note);
+  }
+}
+
+void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& published) {
+  const std::vector<ErrorColumn> columns = error_columns(rungs);
+  std::vector<std::string> head{"model", "train", "held-out"};
+  for (const ErrorColumn& column : columns) {
+    head.push_back(column.head);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Rung& rung : rungs) {
+    std::vector<std::string> row{rung.name, score_text(rung.has_train, rung.scores.train),
+                                 score_text(rung.has_held_out, rung.scores.held_out)};
+    for (const ErrorColumn& column : columns) {
+      row.push_back(percent_text(value_of(rung, column)));
+    }
+    rows.push_back(row);
+  }
+  for (const std::vector<std::string>& row : published_rows(published, columns)) {
+    rows.push_back(row);
+  }
+  fmt::print("train, held-out: error in windows from their own start, in units of the floor.\n");
+  if (!columns.empty()) {
+    fmt::print(
+        "position, force: the whole trial simulated with its controller; inverse: force that the measured "
+        "motion needs; both in % of what was measured.\n");
+  }
+  fmt::print("\n");
+  print_table(head, rows);
+  fmt::print("\n");
+  print_notes(rungs);
+  if (!published_rows(published, columns).empty()) {
+    fmt::print("Published values: {} (and further entries of reference.yaml).\n", published.front().source);
+  }
+}
+
+void run(const LadderInputs& ladder) {
+  check_writable(ladder.inputs.json);
+  std::vector<Rung> rungs;
+  std::set<std::string> known;
+  {
+    ProgressLine progress;
+    const validation::Progress report = progress.callback();
+    const std::vector<std::string> files = model_files(ladder);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      report("ladder: " + fs::path(files[i]).filename().string(),
+             static_cast<double>(i) / static_cast<double>(files.size()));
+      Inputs inputs = ladder.inputs;
+      inputs.model = files[i];
+      const Loaded loaded = load(inputs, effects::Catalogue::all());
+      rungs.push_back(climb(loaded, known));
+      known = effects_of(loaded.model);
+    }
+  }
+  const std::string file = validation::reference_beside(rungs.front().lineage.front());
+  const std::vector<ReferenceValue> published =
+      file.empty() ? std::vector<ReferenceValue>() : validation::read_reference(file);
+  write_json(to_json(rungs, published), ladder.inputs.json);
+  print(rungs, published);
+}
+
+}  // namespace
+
+void add_ladder(CLI::App& app, Outcome& /*outcome*/) {
+  auto ladder = std::make_shared<LadderInputs>();
+  CLI::App* command = app.add_subcommand("ladder", "The models so far and how their errors fell");
+  add_data_inputs(*command, ladder->inputs);
+  command
+      ->add_option("--model", ladder->models,
+                   "model file; one: it and every model it stands on, several: these, in this order")
+      ->type_name("FILE");
+  command->footer(
+      "Example:\n  plumbline ladder validation/trials/emps/identification validation/trials/emps/pulses "
+      "--data emps --model found.yaml");
+  command->callback([ladder] { run(*ladder); });
+}
 
 }  // namespace plumbline::cli

@@ -3,6 +3,7 @@
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "validation/cli/interrupt.h"
+#include "validation/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
 
@@ -10,14 +11,18 @@ void add_json_option(CLI::App& command, std::string& json) {
   command.add_option("--json", json, "write what is printed to FILE, machine-readable")->type_name("FILE");
 }
 
-void add_trial_inputs(CLI::App& command, Inputs& inputs) {
+void add_data_inputs(CLI::App& command, Inputs& inputs) {
   command.add_option("trial", inputs.trials, "trial folders (or their trial.yaml)")->required()->type_name("TRIAL");
-  command.add_option("--model", inputs.model, "model file in place of the one the trials name")->type_name("FILE");
   command.add_option("--data", inputs.data_folder, "folder with the trials' data files")->type_name("DIR");
   command.add_option("--window", inputs.window, "length of the prediction windows, s")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   add_json_option(command, inputs.json);
+}
+
+void add_trial_inputs(CLI::App& command, Inputs& inputs) {
+  add_data_inputs(command, inputs);
+  command.add_option("--model", inputs.model, "model file in place of the one the trials name")->type_name("FILE");
 }
 
 effects::Catalogue catalogue_for(const Inputs& inputs) {
@@ -44,6 +49,7 @@ Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue) {
   std::vector<validation::Trial> trials;
   for (const std::string& path : inputs.trials) {
     trials.push_back(validation::read_trial(path, loaded.model, options));
+    validation::check_command_units(loaded.model, trials.back());
   }
   validation::check_roles(trials);
   validation::PredictOptions predict;

@@ -21,7 +21,9 @@ struct Inputs {
   std::vector<std::string> without;   ///< effects left out of the catalogue
 };
 
-/// TRIAL..., --model, --data, --window, --json.
+/// TRIAL..., --data, --window, --json.
+void add_data_inputs(CLI::App& command, Inputs& inputs);
+/// The same and --model.
 void add_trial_inputs(CLI::App& command, Inputs& inputs);
 void add_json_option(CLI::App& command, std::string& json);
 
@@ -32,7 +34,7 @@ struct Loaded {
   std::unique_ptr<validation::Data> data;
 };
 
-/// Reads the model and the trials, checks roles and cuts windows; the stop flag is wired to Ctrl-C.
+/// Reads the model and the trials, checks roles and the commands' units, and cuts windows; the stop flag is wired to Ctrl-C.
 Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::cli

@@ -58,7 +58,7 @@ Comparison compare(const model::Model& model, const Data& data, const Estimate& 
 
 Comparison compare(const model::Model& model, const Data& data) {
   PredictorPool pool(model, data);
-  return compare(model, data, estimate(pool, {}, Eigen::VectorXd(), {}, {8, 1e-5}));
+  return compare(model, data, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4}));
 }
 
 }  // namespace plumbline::validation

@@ -30,67 +30,68 @@ class PlaceMotions {
   std::map<std::string, effects::Scales> known_;
 };
 
+/// Root mean square of the torques of a trial's motors, carried over to a place: the square root of the
+/// inertias' ratio is about the gear ratio between motor and place.
+double driving_force(model::Plant& plant, const Trial& trial, double inertia) {
+  double square = 0.0;
+  for (const Command& command : trial.commands) {
+    for (int m = 0; m < plant.motors(); ++m) {
+      const std::string& motor = plant.model().motors[static_cast<std::size_t>(m)].name;
+      const double felt = plant.inertia_of(motor);
+      if (command.motor == motor && std::isfinite(felt)) {
+        square += std::pow(plant.torque_gain(m), 2) * inertia / felt * command.values.squaredNorm() /
+                  static_cast<double>(command.values.size());
+      }
+    }
+  }
+  return std::sqrt(square);
+}
+
 effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
   const Data& data = pool_.data();
+  const model::Model& model = pool_.model();
+  const std::string seen = place == Place::ratio ? model.find_ratio(name)->motor : name;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  double sum = 0.0;
   double v2 = 0.0;
-  double torque2 = 0.0;
-  double inertia = 0.0;
   double count = 0.0;
   effects::Scales scales;
+  scales.force = 0.0;
+  scales.inertia = 0.0;
   for (const int w : data.windows_of(Role::train)) {
-    const auto i = static_cast<std::size_t>(w);
+    const Window& window = data.windows[static_cast<std::size_t>(w)];
+    const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
     pool_.with(w, parameters_, estimate_.theta, [&](Predictor& predictor) {
       model::Plant& plant = predictor.plant();
-      const model::Model& model = plant.model();
-      std::string seen = name;
-      if (place == Place::ratio) {
-        seen = model.find_ratio(name)->motor;
-      }
-      const Window& window = data.windows[i];
-      const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
-      for (Eigen::Index k = 0; k < window.count; k += std::max<Eigen::Index>(1, window.count / 16)) {
-        const Window here{window.trial, window.first + k, window.count - k};
-        const Eigen::VectorXd x = predictor.initial_state(here);
+      Eigen::VectorXd xdot(plant.states());
+      const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
+      for (Eigen::Index k = 0; k + 8 < window.count; k += std::max<Eigen::Index>(1, window.count / 8)) {
+        const Eigen::VectorXd x = predictor.initial_state({window.trial, window.first + k, window.count - k});
+        if (k == 0) {
+          plant.rate(x.data(), idle.data(), xdot.data());
+        }
+        if (!std::isfinite(plant.inertia_of(seen)) || plant.inertia_of(seen) > 1e9) {
+          return;  // locked in this trial
+        }
         const double position = plant.position_of(seen, x.data());
         const double velocity = plant.velocity_of(seen, x.data());
         low = std::min(low, position);
         high = std::max(high, position);
-        sum += position;
         v2 += velocity * velocity;
         count += 1.0;
       }
-      Eigen::VectorXd xdot(plant.states());
-      const Eigen::VectorXd x = predictor.initial_state(window);
-      const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
-      plant.rate(x.data(), idle.data(), xdot.data());
-      inertia = std::max(inertia, std::min(plant.inertia_of(seen), 1e12));
-      for (int m = 0; m < plant.motors(); ++m) {
-        for (const Command& command : trial.commands) {
-          const model::Motor& motor = model.motors[static_cast<std::size_t>(m)];
-          if (command.motor != motor.name) {
-            continue;
-          }
-          // The square root of the inertias' ratio is about the gear ratio between motor and place.
-          const double ratio = std::sqrt(std::max(plant.inertia_of(seen), 1e-12) /
-                                         std::max(plant.inertia_of(motor.name), 1e-12));
-          torque2 = std::max(torque2, std::pow(plant.torque_gain(m) * ratio, 2) *
-                                          command.values.squaredNorm() /
-                                          static_cast<double>(command.values.size()));
-        }
-      }
-      scales.period = trial.period;
+      scales.inertia = std::max(scales.inertia, plant.inertia_of(seen));
+      scales.force = std::max(scales.force, driving_force(plant, trial, plant.inertia_of(seen)));
     });
+    scales.period = trial.period;
   }
   scales.center = count > 0.0 ? 0.5 * (low + high) : 0.0;
-  scales.position = std::max(0.5 * (high - low), 1e-9);
-  scales.velocity = std::max(std::sqrt(v2 / std::max(count, 1.0)), 1e-9);
-  scales.inertia = std::max(inertia, 1e-12);
-  scales.force = std::max(std::sqrt(torque2), 1e-9);
+  scales.position = count > 0.0 ? std::max(0.5 * (high - low), 1e-9) : 1.0;
+  scales.velocity = count > 0.0 ? std::max(std::sqrt(v2 / count), 1e-9) : 1.0;
+  scales.inertia = std::max(scales.inertia, 1e-12);
+  scales.force = std::max(scales.force, 1e-9);
   if (place == Place::ratio) {
-    // The two sides of a released ratio swing against each other: about half of what the motor drives.
+    // The two sides of a released ratio swing against each other: about a quarter of their sum.
     scales.inertia *= 0.25;
   }
   return scales;

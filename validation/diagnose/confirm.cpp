@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <Eigen/LU>
@@ -34,15 +35,15 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   // The promised values decide whether states are added, so the model must hold them before it is built.
   result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
   PredictorPool pool(result.extended.model, data);
-  result.estimate = estimate(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 1e-4});
+  result.estimate = gauss_newton(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 5e-3});
   result.extended.theta = result.estimate.theta;
   return result;
 }
 
 void continue_refit(Refit& refit, const Data& data, int iterations) {
   PredictorPool pool(refit.extended.model, data);
-  refit.estimate = estimate(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
-                            {iterations, 1e-5});
+  refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
+                            {iterations, 2e-3});
   refit.extended.theta = refit.estimate.theta;
 }
 
@@ -125,11 +126,16 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
   }
   std::vector<Refit> refits;
+  double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(chosen[i]->candidate)];
     progress("refitting " + candidate.label(), static_cast<double>(i) / static_cast<double>(chosen.size()));
+    if (refits.size() >= 2 && chosen[i]->promised() > 1.5 * best + 0.3) {
+      continue;  // cannot come near what another one has reached
+    }
     try {
       refits.push_back(refit_one(stage, candidate, *chosen[i], data, 4));
+      best = std::min(best, refits.back().square());
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
@@ -140,7 +146,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   for (Refit& one : refits) {
     if (!one.estimate.converged && one.square() < 1.3 * refits.front().square() + 0.1) {
       progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
-      continue_refit(one, data, 12);
+      continue_refit(one, data, 8);
     }
   }
   std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });

@@ -98,14 +98,14 @@ class Diagnoser {
     Stage& stage = diagnosis.final_stage;
     stage.model = model;
     PredictorPool pool(model, data_);
-    const Estimate given = estimate(pool, {}, Eigen::VectorXd(), {}, {6, 1e-4});
+    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-3});
     diagnosis.ladder.push_back({"as given", given.scores.train, given.scores.held_out});
     stage.parameters = stated_parameters(model, options_.parameter_width);
     stage.estimate = given;
     if (!stage.parameters.empty()) {
       progress_("the model's own parameters", 0.5);
       stage.estimate =
-          estimate(pool, stage.parameters, values_of(model, stage.parameters), given.x0, {8, 1e-5});
+          gauss_newton(pool, stage.parameters, values_of(model, stage.parameters), given.x0, {10, 1e-3});
       diagnosis.ladder.push_back(
           {"own parameters fitted", stage.estimate.scores.train, stage.estimate.scores.held_out});
     }
@@ -218,8 +218,8 @@ class Diagnoser {
       progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
       Stage without = without_effect(stage, effect);
       PredictorPool pool(without.model, data_);
-      without.estimate = estimate(pool, without.parameters, values_of(without.model, without.parameters), {},
-                                  {10, 1e-5});
+      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters), {},
+                                      {10, 1e-3});
       const double rise =
           judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
       if (rise < options_.material) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/diagnose/box_least_squares.h"
+#include "validation/predict/box_least_squares.h"
 
 namespace plumbline::validation {
 namespace {
@@ -13,25 +13,6 @@ namespace {
 bool has_tangent(const Candidate& candidate, const effects::Values& start) {
   return candidate.place != effects::Place::ratio && candidate.law->state_count() == 0 &&
          candidate.law->is_null(start.data());
-}
-
-struct Bounds {
-  Eigen::VectorXd lower, upper;
-};
-
-/// Room that each parameter has, in search units from where it is.
-Bounds room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
-            const Eigen::VectorXd& units) {
-  Bounds b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};
-  for (Eigen::Index p = 0; p < units.size(); ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    const double here = to_search(parameter.scale, theta[p]);
-    const double one = (to_search(parameter.scale, parameter.lower) - here) / units[p];
-    const double two = (to_search(parameter.scale, parameter.upper) - here) / units[p];
-    b.lower[p] = std::min({one, two, 0.0});
-    b.upper[p] = std::max({one, two, 0.0});
-  }
-  return b;
 }
 
 struct Sum {
@@ -77,7 +58,7 @@ double promised_square(const Sum& sum, const std::vector<Eigen::Index>& chosen, 
 }
 
 /// Solves for the chosen columns on the train windows; the promise is judged on both roles.
-Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Bounds& bounds) {
+Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Room& bounds) {
   const auto n = static_cast<Eigen::Index>(chosen.size());
   Eigen::MatrixXd H(n, n);
   Eigen::VectorXd g(n);
@@ -140,7 +121,7 @@ std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Ca
   const std::vector<Reduced> reduced = reduce(pool, windows, parameters, theta, stage.estimate.x0, units);
   const Sum train = sum_of(reduced, windows, data, Role::train);
   const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
-  const Bounds bounds = room(parameters, theta, units);
+  const Room bounds = room(parameters, theta, units);
   std::vector<Hypothesis> found;
   for (std::size_t h = 0; h < all.size(); ++h) {
     if (!moves_prediction(train, own[h])) {
@@ -183,7 +164,7 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
   for (std::size_t p = 0; p < chosen.size(); ++p) {
     chosen[p] = static_cast<Eigen::Index>(p);
   }
-  Bounds bounds = room(extended.parameters, extended.theta, units);
+  Room bounds = room(extended.parameters, extended.theta, units);
   // A linearisation far from null is trusted for about a factor of two.
   for (Eigen::Index p = static_cast<Eigen::Index>(stage.parameters.size()); p < units.size(); ++p) {
     bounds.lower[p] = std::max(bounds.lower[p], -1.0);

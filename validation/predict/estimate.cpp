@@ -20,16 +20,6 @@ Eigen::VectorXd values_of(const std::vector<FreeParameter>& parameters, const Ei
   return theta;
 }
 
-/// d(value)/d(scaled search) for each parameter.
-Eigen::VectorXd slopes_of(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
-                          const Eigen::VectorXd& theta) {
-  Eigen::VectorXd slopes(units.size());
-  for (Eigen::Index p = 0; p < units.size(); ++p) {
-    slopes[p] = search_slope(parameters[static_cast<std::size_t>(p)].scale, theta[p]) * units[p];
-  }
-  return slopes;
-}
-
 /// Residuals of one window and, behind them, how far its initial state is from what the sensors show.
 class WindowCost : public ceres::CostFunction {
  public:
@@ -95,7 +85,7 @@ class WindowCost : public ceres::CostFunction {
     if (free && jacobians[0] != nullptr) {
       Eigen::Map<Matrix> J(jacobians[0], rows_ + nx, units_.size());
       J.setZero();
-      J.topRows(rows_) = -lin.Jp * slopes_of(parameters_, units_, theta).asDiagonal();
+      J.topRows(rows_) = -lin.Jp * search_slopes(parameters_, units_, theta).asDiagonal();
     }
     return r.allFinite();
   }
@@ -226,6 +216,15 @@ Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const
   return units;
 }
 
+Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+                              const Eigen::VectorXd& theta) {
+  Eigen::VectorXd slopes(units.size());
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    slopes[p] = search_slope(parameters[static_cast<std::size_t>(p)].scale, theta[p]) * units[p];
+  }
+  return slopes;
+}
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
   for (const Role role : {Role::train, Role::held_out}) {
@@ -270,41 +269,6 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
   result.square = squares(pool, parameters, result.theta, result.x0);
   result.scores = score(data, result.square);
   return result;
-}
-
-std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
-                            const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
-                            const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units) {
-  const Data& data = pool.data();
-  std::vector<Reduced> all(windows.size());
-  const Eigen::VectorXd slopes = slopes_of(parameters, units, theta);
-  parallel_for(static_cast<int>(windows.size()), data.threads, [&](int i) {
-    const int w = windows[static_cast<std::size_t>(i)];
-    Reduced& out = all[static_cast<std::size_t>(i)];
-    pool.with(w, parameters, theta, [&](Predictor& predictor) {
-      const Window& window = data.windows[static_cast<std::size_t>(w)];
-      const Eigen::VectorXd& given = x0[static_cast<std::size_t>(w)];
-      const Eigen::VectorXd start = given.size() > 0 ? given : predictor.initial_state(window);
-      const Linearisation lin = predictor.linearise(window, start, parameters);
-      const Eigen::Index nx = start.size();
-      const Eigen::Index rows = lin.r.size();
-      Eigen::MatrixXd X(rows + nx, nx);
-      X.topRows(rows) = lin.Jx;
-      X.bottomRows(nx) = predictor.initial_spread(window).cwiseInverse().asDiagonal();
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
-      const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
-      const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
-      const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
-      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
-      out.H = Jp.transpose() * Jp - QtJ.transpose() * QtJ;
-      out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
-      out.sse = lin.r.squaredNorm() - Qtr.squaredNorm();
-      const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
-      out.x_shift = R.solve(Qtr);
-      out.x_slope = R.solve(QtJ);
-    });
-  });
-  return all;
 }
 
 }  // namespace plumbline::validation

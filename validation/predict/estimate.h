@@ -36,6 +36,14 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
                   const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                   const EstimateOptions& options);
 
+/// The same estimate by Gauss-Newton steps on the reduced equations, for many models in a short time: one
+/// pass over the windows gives the step of the parameters and of all initial states, held-out ones included.
+/// Steps that raise the cost are shortened. Stops when a step promises less than options.tolerance of the
+/// cost. Throws std::runtime_error when the model cannot be integrated from the start values.
+Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                      const EstimateOptions& options);
+
 /// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
 
@@ -44,7 +52,9 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
 struct Reduced {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
-  double sse = 0.0;
+  double sse = 0.0;          ///< after the initial state has moved
+  double raw_sse = 0.0;      ///< before
+  Eigen::VectorXd square;    ///< sse by channel
   Eigen::VectorXd x_shift;   ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;   ///< its change with delta: x0 + x_shift - x_slope delta
 };
@@ -56,5 +66,16 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
 
 /// Size of a step of each parameter's search coordinate that matters (from its typical value).
 Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta);
+
+/// d(value)/d(search/unit) of each parameter at theta.
+Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+                              const Eigen::VectorXd& theta);
+
+/// Room that each parameter has within its bounds, in search units from theta.
+struct Room {
+  Eigen::VectorXd lower, upper;
+};
+Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+          const Eigen::VectorXd& units);
 
 }  // namespace plumbline::validation

@@ -22,7 +22,7 @@ struct Window {
 
 struct PredictOptions {
   double window = 0.5;             ///< s
-  double relative_tolerance = 1e-6;
+  double relative_tolerance = 1e-5;
   int refresh = 8;                 ///< samples between refreshes of the rigid linearisation
 };
 

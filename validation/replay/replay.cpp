@@ -47,13 +47,19 @@ Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Com
 /// A trial's controllers, each with the sensor it reads and the motor it commands.
 class Loops {
  public:
-  Loops(const model::Model& model, const Trial& trial, const Eigen::VectorXd& previous_readings) {
+  /// The controllers arrive with the motion that x0 has: a recording may begin in full swing.
+  Loops(model::Plant& plant, const Trial& trial, const Eigen::VectorXd& x0) {
+    const model::Model& model = plant.model();
+    Eigen::VectorXd y(plant.sensors());
+    plant.outputs(x0.data(), y.data());
+    Eigen::MatrixXd slope;
+    plant.output_jacobian(x0.data(), slope);
+    const Eigen::VectorXd rate = slope * x0.segment(plant.positions(), plant.positions());
     for (const Controller& known : trial.controllers) {
-      Loop loop{
-          index_of(model.sensors, known.sensor),
-          index_of(model.motors, known.motor),
-          controllers::CascadePd({known.position_gain, known.velocity_gain, known.command_limit, trial.period}),
-          &known};
+      Loop loop{index_of(model.sensors, known.sensor), index_of(model.motors, known.motor),
+                controllers::CascadePd({known.position_gain, known.velocity_gain, known.command_limit,
+                                        trial.period, known.velocity_over}),
+                &known};
       if (loop.sensor < 0 || loop.motor < 0) {
         const bool sensor = loop.sensor < 0;
         throw InputError({trial.file, 0, "controllers"}, sensor ? known.sensor : known.motor,
@@ -61,7 +67,7 @@ class Loops {
                              nearest_names(sensor ? known.sensor : known.motor,
                                            sensor ? names_of(model.sensors) : names_of(model.motors)));
       }
-      loop.law.reset(previous_readings[loop.sensor]);
+      loop.law.reset(y[loop.sensor], rate[loop.sensor]);
       loops_.push_back(loop);
     }
   }
@@ -94,15 +100,6 @@ integrate::Readout readout_of(const model::Model& model) {
       }
     }
   };
-}
-
-/// One period before the start, from the velocities there: a recording may begin in full motion.
-Eigen::VectorXd readings_before(model::Plant& plant, const Eigen::VectorXd& x0, double period) {
-  Eigen::VectorXd readings(plant.sensors());
-  plant.outputs(x0.data(), readings.data());
-  Eigen::MatrixXd slope;
-  plant.output_jacobian(x0.data(), slope);
-  return readings - period * (slope * x0.segment(plant.positions(), plant.positions()));
 }
 
 void add_place(model::Plant& plant, const std::string& name, bool angular, const Eigen::MatrixXd& states,
@@ -141,13 +138,13 @@ Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
   return trace;
 }
 
-struct Start {
+struct Beginning {
   Eigen::VectorXd x0;
   Eigen::MatrixXd commands;
   double time = 0.0, period = 1e-3;
 };
 
-Replay run(model::Plant& plant, const Start& start, Loops* loops, const ReplayOptions& options) {
+Replay run(model::Plant& plant, const Beginning& start, Loops* loops, const ReplayOptions& options) {
   std::vector<double> delays;
   for (int m = 0; m < plant.motors(); ++m) {
     delays.push_back(plant.delay(m));
@@ -165,8 +162,8 @@ Replay run(model::Plant& plant, const Start& start, Loops* loops, const ReplayOp
   run_options.integrator = options.integrator;
   const auto begin = std::chrono::steady_clock::now();
   Replay replay;
-  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, delays}, start.time, each_sample,
-                              readout_of(plant.model()), run_options);
+  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, delays}, start.time,
+                              each_sample, readout_of(plant.model()), run_options);
   replay.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   replay.duration = start.period * static_cast<double>(start.commands.cols() - 1);
   replay.trace = trace_of(plant, replay.run);
@@ -195,11 +192,11 @@ Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions
   }
   Predictor predictor(model, trial, {});
   model::Plant& plant = predictor.plant();
-  const Start start{predictor.initial_state({0, 0, trial.samples()}),
-                    command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
+  const Beginning start{predictor.initial_state({0, 0, trial.samples()}),
+                        command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
   Replay result;
   if (options.closed_loop) {
-    Loops loops(model, trial, readings_before(plant, start.x0, trial.period));
+    Loops loops(plant, trial, start.x0);
     result = run(plant, start, &loops, options);
   } else {
     result = run(plant, start, nullptr, options);

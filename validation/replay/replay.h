@@ -14,7 +14,7 @@ namespace plumbline::validation {
 
 struct ReplayOptions {
   integrate::Options integrator;
-  bool closed_loop = false;        ///< the trial's controllers command their motors, in place of the recording
+  bool closed_loop = false;  ///< the trial's controllers command their motors, in place of the recording
   const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown at the next sample
 };
 

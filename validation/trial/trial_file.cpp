@@ -18,6 +18,7 @@ using model::YamlNode;
 template <typename Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const Item& item : items) {
     names.push_back(item.name);
   }

@@ -1,4 +1,4 @@
-#include "validation/diagnose/box_least_squares.h"
+#include "validation/predict/box_least_squares.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

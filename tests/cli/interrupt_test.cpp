@@ -1,0 +1,71 @@
+// Ctrl-C in the middle of long work.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/cli/robot_folder.h"
+
+namespace plumbline::test {
+namespace {
+
+class Interrupt : public RobotFolder {
+ protected:
+  /// Starts the command, interrupts it after so many seconds and returns how it ended; it must end soon.
+  Outcome interrupted(const std::vector<std::string>& arguments, double seconds) const {
+    using Clock = std::chrono::steady_clock;
+    Process process(arguments, folder);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    EXPECT_TRUE(process.is_running()) << "it was done before it could be interrupted";
+    const auto begin = Clock::now();
+    process.interrupt();
+    Outcome outcome = process.wait();
+    EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 15.0);
+    return outcome;
+  }
+};
+
+TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
+  const Outcome outcome =
+      interrupted({"diagnose", "trials/chirp", "trials/steps", "trials/swing", "--json", "d.json"}, 8.0);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("Stopped before the end"));
+  const nlohmann::json json = read_json("d.json");
+  EXPECT_EQ(json["interrupted"], true);
+  ASSERT_GE(json["ladder"].size(), 1U);
+  EXPECT_EQ(json["ladder"][0]["name"], "as given");
+}
+
+TEST_F(Interrupt, DiagnoseEndsCleanlyBeforeAnythingIsFinished) {
+  const Outcome outcome = interrupted({"diagnose", "trials/chirp", "trials/steps", "trials/swing", "--json",
+                                       "d.json", "--save", "found.yaml"},
+                                      0.15);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(read_json("d.json")["interrupted"], true);
+  EXPECT_EQ(snapshot().count("found.yaml"), 0U) << "a model was written although nothing is known";
+}
+
+TEST_F(Interrupt, FitWritesNothing) {
+  succeed({"add", "coulomb", "--at", "drive", "--trial", "trials/steps", "--out", "robot/new.yaml"});
+  const auto before = snapshot();
+  const Outcome outcome = interrupted({"fit", "trials/chirp", "trials/steps", "--model", "robot/new.yaml",
+                                       "--free", "*", "--out", "fitted.yaml", "--json", "f.json"},
+                                      0.5);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user\n"));
+  EXPECT_EQ(snapshot(), before);
+}
+
+TEST_F(Interrupt, SimulateWritesNothing) {
+  replace("experiments/swing.yaml", "duration: {value: 2, unit: s}", "duration: {value: 1000, unit: s}");
+  const auto before = snapshot();
+  const Outcome outcome = interrupted({"simulate", "--experiment", "experiments/swing.yaml", "--model",
+                                       "robot/model.yaml", "--out", "trace.csv"},
+                                      0.7);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_EQ(outcome.err, "plumbline: stopped by the user\n");
+  EXPECT_EQ(snapshot(), before);
+}
+
+}  // namespace
+}  // namespace plumbline::test

@@ -1,0 +1,88 @@
+#include "tests/cli/program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace plumbline::test {
+namespace {
+
+std::string content(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// In the child: only calls that are safe between fork and exec.
+void redirect(const char* file, int descriptor) {
+  const int opened = ::open(file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (opened < 0 || ::dup2(opened, descriptor) < 0) {
+    ::_exit(126);
+  }
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& arguments, const std::string& working_folder) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "plumbline-run-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    throw std::runtime_error("no temporary folder");
+  }
+  folder_ = pattern;
+  const std::string program = PLUMBLINE_PROGRAM;
+  const std::string out = folder_ + "/out";
+  const std::string err = folder_ + "/err";
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) {
+    argv.push_back(const_cast<char*>(argument.c_str()));
+  }
+  argv.push_back(nullptr);
+  pid_ = ::fork();
+  if (pid_ == 0) {
+    redirect(out.c_str(), STDOUT_FILENO);
+    redirect(err.c_str(), STDERR_FILENO);
+    if (::chdir(working_folder.c_str()) == 0) {
+      ::execv(program.c_str(), argv.data());
+    }
+    ::_exit(127);
+  }
+}
+
+Process::~Process() {
+  if (!ended_ && pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, &raw_status_, 0);
+  }
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+void Process::interrupt() const { ::kill(pid_, SIGINT); }
+
+bool Process::is_running() {
+  ended_ = ended_ || ::waitpid(pid_, &raw_status_, WNOHANG) == pid_;
+  return !ended_;
+}
+
+Outcome Process::wait() {
+  if (!ended_) {
+    ::waitpid(pid_, &raw_status_, 0);
+    ended_ = true;
+  }
+  Outcome outcome;
+  outcome.status = WIFEXITED(raw_status_) ? WEXITSTATUS(raw_status_) : 128 + WTERMSIG(raw_status_);
+  outcome.out = content(folder_ + "/out");
+  outcome.err = content(folder_ + "/err");
+  return outcome;
+}
+
+Outcome run(const std::vector<std::string>& arguments, const std::string& working_folder) {
+  return Process(arguments, working_folder).wait();
+}
+
+}  // namespace plumbline::test

@@ -1,0 +1,37 @@
+// Runs the built `plumbline` in a folder and keeps what it said.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace plumbline::test {
+
+struct Outcome {
+  int status = -1;  ///< exit status; 128 + signal when a signal ended it
+  std::string out, err;
+};
+
+/// A running program. Its output goes to files in a folder of its own, removed in the end.
+class Process {
+ public:
+  Process(const std::vector<std::string>& arguments, const std::string& working_folder);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void interrupt() const;  ///< as Ctrl-C does
+  bool is_running();
+  Outcome wait();
+
+ private:
+  std::string folder_;
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  int raw_status_ = 0;
+};
+
+Outcome run(const std::vector<std::string>& arguments, const std::string& working_folder);
+
+}  // namespace plumbline::test

@@ -1,0 +1,145 @@
+#include "tests/model/reader_targets.h"
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "simulator/model/robot_reader.h"
+#include "simulator/trace/error.h"
+#include "simulator/trace/table.h"
+#include "simulator/trace/units.h"
+#include "tests/model/robot_texts.h"
+#include "tests/model/test_laws.h"
+
+namespace plumbline::test {
+namespace {
+
+constexpr double kHang = 5.0;  // s of processor time
+
+std::string put(const std::string& path, const std::string& text) {
+  std::filesystem::remove(path);  // some file systems flush a file that is truncated and written again
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+/// Empty when `read` returned with credible results or threw one InputError line in time.
+std::string verdict(const std::function<std::string()>& read) {
+  const std::clock_t start = std::clock();
+  std::string wrong;
+  try {
+    wrong = read();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    if (text.find_first_of("\n\r") != std::string::npos || text.empty()) {
+      wrong = "message is not one line: " + text;
+    }
+  } catch (const std::exception& error) {
+    wrong = std::string("not an InputError: ") + error.what();
+  } catch (...) {
+    wrong = "an unknown exception";
+  }
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return seconds > kHang ? "took " + std::to_string(seconds) + " s" : wrong;
+}
+
+std::string incredible(const model::Skeleton& skeleton) {
+  if (skeleton.bodies.empty() || skeleton.bodies.size() != skeleton.joints.size() ||
+      !skeleton.gravity.allFinite()) {
+    return "no tree";
+  }
+  for (std::size_t i = 0; i < skeleton.bodies.size(); ++i) {
+    const model::Body& body = skeleton.bodies[i];
+    const model::Joint& joint = skeleton.joints[i];
+    if (!(body.mass >= 0.0) || !std::isfinite(body.mass) || !body.com.allFinite() ||
+        !body.inertia.allFinite() || !(body.inertia.trace() >= 0.0)) {
+      return "impossible body " + body.name;
+    }
+    if (joint.child != static_cast<int>(i) || joint.parent >= static_cast<int>(i) ||
+        !joint.X_PJ.matrix().allFinite() || !joint.X_CJ.matrix().allFinite() ||
+        std::abs(joint.axis.norm() - 1.0) > 1e-9) {
+      return "impossible joint " + joint.name;
+    }
+  }
+  return "";
+}
+
+std::string incredible(const model::Model& robot) {
+  for (const model::Motor& motor : robot.motors) {
+    if (!(motor.rotor_inertia.value > 0.0) || !(motor.torque_constant.value > 0.0) ||
+        !std::isfinite(motor.torque_constant.value) || !(motor.rotor_inertia.uncertainty >= 0.0)) {
+      return "impossible motor " + motor.name;
+    }
+  }
+  for (const model::EffectUse& use : robot.effects) {
+    robot.resolve(*use.law, use.at);
+    for (const double value : use.numbers()) {
+      if (std::isnan(value)) {
+        return "no number in " + use.label();
+      }
+    }
+  }
+  return "";
+}
+
+std::string incredible(const Table& table) {
+  for (const Column& column : table.columns) {
+    if (column.values.size() != table.rows() || table.rows() < 1 || !column.values.allFinite()) {
+      return "impossible column " + column.name;
+    }
+  }
+  return table.columns.empty() ? "no columns" : "";
+}
+
+std::string check_unit(const std::string& text) {
+  if (!unit_is_known(text)) {
+    to_si_factor(text);  // must throw
+    return "a factor of an unknown unit";
+  }
+  const double factor = to_si_factor(text);
+  return std::isfinite(factor) && factor > 0.0 && units_agree(text, text) ? "" : "impossible factor";
+}
+
+}  // namespace
+
+std::vector<ReaderTarget> reader_targets(const std::string& folder) {
+  put(folder + "/arm.sdf", kSkeleton);
+  put(folder + "/model.yaml", kModel);
+  const model::Skeleton skeleton = model::read_skeleton(folder + "/arm.sdf");
+  const auto given = [skeleton](const std::string&) { return skeleton; };
+  const auto catalogue = test_catalogue();
+  const auto read_model = [=](const std::string& path) {
+    return verdict([&] { return incredible(model::read_model(path, catalogue, given)); });
+  };
+  const auto read_skeleton = [](const std::string& path) {
+    return verdict([&] { return incredible(model::read_skeleton(path)); });
+  };
+  return {
+      {"model",
+       {kModel},
+       [=](const std::string& text) { return read_model(put(folder + "/input.yaml", text)); }},
+      {"overlay",
+       {kOverlay},
+       [=](const std::string& text) { return read_model(put(folder + "/input.yaml", text)); }},
+      {"csv",
+       {kCsv},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/input.csv", text);
+         return verdict([&] { return incredible(read_csv(path)); });
+       }},
+      {"unit",
+       {"N m s/rad", "kg m^2", "deg", "1e-3 mN.m/A^2", "m/s^2"},
+       [=](const std::string& text) {
+         put(folder + "/input.unit", text);
+         return verdict([&] { return check_unit(text); });
+       }},
+      {"sdf",
+       {kSkeleton},
+       [=](const std::string& text) { return read_skeleton(put(folder + "/input.sdf", text)); }},
+      {"urdf",
+       {kUrdf},
+       [=](const std::string& text) { return read_skeleton(put(folder + "/input.urdf", text)); }},
+  };
+}
+
+}  // namespace plumbline::test

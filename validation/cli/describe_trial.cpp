@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "simulator/model/kinds.h"
+#include "validation/cli/describe.h"
+#include "validation/cli/output.h"
+
+namespace plumbline::cli {
+namespace {
+
+using model::Model;
+using nlohmann::json;
+using validation::Trial;
+
+/// rad or m
+std::string reading_unit(const Model& model, const std::string& sensor) {
+  return model::position_unit(model.place_is_angular(effects::Place::sensor, sensor));
+}
+
+double rms(const Eigen::VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+json to_json(const Trial& trial, const Model& model, const Freedom& freedom) {
+  json out{{"kind", "trial"},
+           {"file", trial.file},
+           {"title", trial.title},
+           {"model", model.file},
+           {"data", trial.data_file},
+           {"role", to_string(trial.role)},
+           {"samples", trial.samples()},
+           {"period", trial.period},
+           {"duration", trial.time[trial.samples() - 1] - trial.time[0]},
+           {"independent_coordinates", freedom.coordinates},
+           {"events", trial.events}};
+  for (const char* key : {"measured", "commands", "locked", "controllers"}) {
+    out[key] = json::array();
+  }
+  for (const validation::Measured& channel : trial.measured) {
+    out["measured"].push_back({{"sensor", channel.sensor},
+                               {"column", channel.column},
+                               {"column_unit", channel.unit},
+                               {"unit", reading_unit(model, channel.sensor)},
+                               {"rms", rms(channel.values)},
+                               {"floor", model.find_sensor(channel.sensor)->floor()}});
+  }
+  for (const validation::Command& command : trial.commands) {
+    out["commands"].push_back({{"motor", command.motor},
+                               {"column", command.column},
+                               {"column_unit", command.unit},
+                               {"unit", model.find_motor(command.motor)->command_unit},
+                               {"rms", rms(command.values)}});
+  }
+  for (const validation::Lock& lock : trial.locks) {
+    out["locked"].push_back({{"at", lock.at}, {"value", lock.value}});
+  }
+  for (const validation::Controller& controller : trial.controllers) {
+    out["controllers"].push_back(
+        {{"kind", controller.kind}, {"motor", controller.motor}, {"sensor", controller.sensor}});
+  }
+  return out;
+}
+
+void print(const Trial& trial, const Model& model, const Freedom& freedom) {
+  fmt::print("Trial {}: {}\n", trial.file, trial.title);
+  fmt::print("  model {}\n  data {}\n", model.file, trial.data_file);
+  fmt::print("  role {}; {} samples every {:g} s, {:g} s in all; {} independent coordinates\n",
+             to_string(trial.role), trial.samples(), trial.period,
+             trial.time[trial.samples() - 1] - trial.time[0], freedom.coordinates);
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::Measured& channel : trial.measured) {
+    const std::string unit = reading_unit(model, channel.sensor);
+    rows.push_back({"sensor " + channel.sensor, channel.column, channel.unit,
+                    fmt::format("{:.4g} {}", rms(channel.values), unit),
+                    fmt::format("{:.3g} {}", model.find_sensor(channel.sensor)->floor(), unit)});
+  }
+  for (const validation::Command& command : trial.commands) {
+    rows.push_back(
+        {"command of " + command.motor, command.column, command.unit,
+         fmt::format("{:.4g} {}", rms(command.values), model.find_motor(command.motor)->command_unit), ""});
+  }
+  fmt::print("\n");
+  print_table({"channel", "column", "unit", "rms", "floor"}, rows);
+  fmt::print("\n");
+  for (const validation::Lock& lock : trial.locks) {
+    fmt::print("Locked: {} at {:g} {}\n", lock.at, lock.value,
+               model::position_unit(model::is_angular(model, lock.at)));
+  }
+  for (const validation::Controller& controller : trial.controllers) {
+    fmt::print("Controller: {} on {}, from {}\n", controller.kind, controller.motor, controller.sensor);
+  }
+  for (const double event : trial.events) {
+    fmt::print("Event: {:g} s\n", event);
+  }
+}
+
+}  // namespace plumbline::cli

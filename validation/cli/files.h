@@ -1,0 +1,19 @@
+// Files that a command is going to write, checked before any work is done.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace plumbline::cli {
+
+/// Throws InputError when `file` could not be written; leaves nothing behind. Empty: nothing is checked.
+void check_writable(const std::string& file);
+
+/// Throws InputError when `file` is one of the `inputs`.
+void check_not_an_input(const std::string& file, const std::vector<std::string>& inputs);
+
+/// The number; the texts "inf" and "-inf" where it is infinite, since JSON has no such number.
+nlohmann::json json_number(double value);
+
+}  // namespace plumbline::cli

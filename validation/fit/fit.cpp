@@ -1,0 +1,172 @@
+#include "validation/fit/fit.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "simulator/trace/error.h"
+#include "simulator/trace/number_text.h"
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+namespace {
+
+std::string percent(double share) { return number_text(100.0 * share, 2) + " %"; }
+
+/// Confidence interval along the search line, in the parameter's own unit and within its bounds.
+void set_interval(const FreeParameter& parameter, double quantile, FittedParameter& fitted) {
+  const double slope = std::abs(search_slope(parameter.scale, fitted.after));
+  const double reach = slope > 0.0 ? quantile * fitted.deviation / slope : 0.0;
+  const double here = to_search(parameter.scale, fitted.after);
+  double low = here - reach;
+  double high = here + reach;
+  if (parameter.scale == effects::Scale::reciprocal && here > 0.0) {
+    low = std::max(low, 0.0);  // 1/0: the null value, infinite
+  }
+  double a = from_search(parameter.scale, low);
+  double b = from_search(parameter.scale, high);
+  if (a > b) {
+    std::swap(a, b);
+  }
+  fitted.lower = std::max(a, parameter.lower);
+  fitted.upper = std::min(b, parameter.upper);
+}
+
+void set_partner(const std::vector<FreeParameter>& parameters, const Eigen::MatrixXd& correlation,
+                 Eigen::Index p, FittedParameter& fitted) {
+  for (Eigen::Index other = 0; other < correlation.cols(); ++other) {
+    if (other != p && std::abs(correlation(p, other)) > std::abs(fitted.correlation)) {
+      fitted.correlation = correlation(p, other);
+      fitted.partner = parameters[static_cast<std::size_t>(other)].label;
+    }
+  }
+}
+
+/// "its lower bound 0 N m", or nothing.
+std::string bound_reached(const FreeParameter& parameter, double value) {
+  const double here = to_search(parameter.scale, value);
+  const double unit = parameter.scale == effects::Scale::logarithm
+                          ? 1.0
+                          : std::abs(to_search(parameter.scale, parameter.typical));
+  const auto touches = [&](double bound) {
+    const double there = to_search(parameter.scale, bound);
+    return std::isfinite(there) && std::abs(here - there) <= 1e-6 * unit;
+  };
+  const std::string unit_text = parameter.unit == "1" ? "" : " " + parameter.unit;
+  if (touches(parameter.lower)) {
+    return "its lower bound " + number_text(parameter.lower) + unit_text;
+  }
+  if (touches(parameter.upper)) {
+    return "its upper bound " + number_text(parameter.upper) + unit_text;
+  }
+  return "";
+}
+
+void add_doubts(const FreeParameter& parameter, const FitNumbers& numbers, bool seen,
+                const FitOptions& options, FittedParameter& fitted) {
+  if (!seen) {
+    fitted.doubts.push_back({"unseen", "these motions do not depend on it; its value was left as it was"});
+    return;
+  }
+  if (numbers.windows <= static_cast<int>(numbers.after.size())) {
+    fitted.doubts.push_back(
+        {"few_windows",
+         "there are no more windows than parameters, so nothing says how sure it is: record "
+         "longer or free fewer"});
+  }
+  const std::string bound = bound_reached(parameter, fitted.after);
+  if (!bound.empty()) {
+    fitted.doubts.push_back({"at_bound", "it ended at " + bound +
+                                             ": the best value may lie beyond, or the "
+                                             "effect is not there"});
+  }
+  if (fitted.deviation > options.uncertain * std::abs(fitted.after)) {
+    const bool zero = fitted.after == 0.0;
+    fitted.doubts.push_back({"uncertain", zero ? "its standard deviation is larger than its value"
+                                               : "it is known to within " +
+                                                     percent(fitted.deviation / std::abs(fitted.after)) +
+                                                     " (one standard deviation) only"});
+  }
+  if (std::abs(fitted.correlation) > options.tied) {
+    fitted.doubts.push_back({"tied", "it cannot be told from " + fitted.partner + " (correlation " +
+                                         number_text(fitted.correlation, 4) +
+                                         "): only a combination of the two is known"});
+  }
+}
+
+}  // namespace
+
+bool FittedParameter::seen() const {
+  return std::none_of(doubts.begin(), doubts.end(),
+                      [](const Doubt& doubt) { return doubt.kind == "unseen"; });
+}
+
+double student_quantile(double confidence, int degrees_of_freedom) {
+  if (degrees_of_freedom < 1) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const boost::math::students_t distribution(degrees_of_freedom);
+  return boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
+}
+
+std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters, const FitNumbers& numbers,
+                                   const FitOptions& options) {
+  const double quantile =
+      student_quantile(options.confidence, numbers.windows - static_cast<int>(parameters.size()));
+  std::vector<FittedParameter> all;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto p = static_cast<Eigen::Index>(i);
+    FittedParameter fitted;
+    fitted.label = parameters[i].label;
+    fitted.unit = parameters[i].unit;
+    fitted.before = numbers.before[p];
+    fitted.after = numbers.after[p];
+    const bool seen = numbers.correlation(p, p) > 0.5;
+    fitted.deviation = seen ? numbers.deviations[p] : std::numeric_limits<double>::infinity();
+    if (seen && std::isfinite(quantile)) {
+      set_interval(parameters[i], quantile, fitted);
+    } else {
+      fitted.lower = parameters[i].lower;
+      fitted.upper = parameters[i].upper;
+    }
+    set_partner(parameters, numbers.correlation, p, fitted);
+    add_doubts(parameters[i], numbers, seen, options, fitted);
+    all.push_back(std::move(fitted));
+  }
+  return all;
+}
+
+Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> parameters,
+        const FitOptions& options, const Progress& progress) {
+  if (!data.has(Role::train)) {
+    throw InputError({data.trials.front().file, 0, "role"}, "held-out",
+                     "at least one trial with role: train");
+  }
+  check_can_move(model, parameters);
+  progress("the model as given", 0.0);
+  PredictorPool pool(model, data);
+  const Estimate given = estimate(pool, {}, Eigen::VectorXd(), {}, {8, 1e-5});
+  set_typical(model, data, parameters);
+  progress("fitting " + std::to_string(parameters.size()) + " parameters", 0.2);
+  FitNumbers numbers;
+  numbers.before = values_of(model, parameters);
+  const Estimate fitted =
+      estimate(pool, parameters, numbers.before, given.x0, {options.iterations, options.tolerance});
+  progress("how sure they are", 0.9);
+  numbers.after = fitted.theta;
+  numbers.deviations = parameter_deviations(pool, parameters, fitted, &numbers.correlation);
+  numbers.windows = static_cast<int>(data.windows_of(Role::train).size());
+  Fit result;
+  result.before = given.scores;
+  result.after = fitted.scores;
+  result.parameters = judge(parameters, numbers, options);
+  result.windows = numbers.windows;
+  result.degrees_of_freedom = numbers.windows - static_cast<int>(parameters.size());
+  result.quantile = student_quantile(options.confidence, result.degrees_of_freedom);
+  result.iterations = fitted.iterations;
+  result.converged = fitted.converged;
+  return result;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,300 @@
+#include "validation/inverse_model/inverse_model.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "simulator/model/plant.h"
+#include "simulator/sensing/low_pass.h"
+#include "simulator/trace/error.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kHighestShare = 0.4;  // of the sample rate
+constexpr double kEdgePeriods = 2.0;   // of the force cutoff
+
+std::vector<model::Lock> locks_of(const Trial& trial) {
+  std::vector<model::Lock> locks;
+  for (const Lock& lock : trial.locks) {
+    locks.push_back({lock.at, lock.value});
+  }
+  return locks;
+}
+
+double bounded(double cutoff, double period) { return std::min(cutoff, kHighestShare / period); }
+
+/// Signals of all independent positions, one row each.
+struct Motion {
+  Eigen::MatrixXd z, v, a;
+};
+
+/// The independent positions from the measured channels, weighted by the sensors' floors. Sensor effects are
+/// affine, so that the outputs at zero and their slope say everything. Empty when a position stays unseen.
+Eigen::MatrixXd positions(model::Plant& plant, const Trial& trial, double cutoff) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(plant.states());
+  Eigen::VectorXd offset(plant.sensors());
+  Eigen::MatrixXd slope;
+  plant.outputs(zero.data(), offset.data());
+  plant.output_jacobian(zero.data(), slope);
+  const auto channels = static_cast<Eigen::Index>(trial.measured.size());
+  Eigen::MatrixXd C(channels, plant.positions());
+  Eigen::MatrixXd y(channels, trial.samples());
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    const Measured& measured = trial.measured[static_cast<std::size_t>(c)];
+    for (Eigen::Index s = 0; s < plant.sensors(); ++s) {
+      const model::Sensor& sensor = plant.model().sensors[static_cast<std::size_t>(s)];
+      if (sensor.name == measured.sensor) {
+        const double floor = sensor.floor() > 0.0 ? sensor.floor() : 1.0;
+        C.row(c) = slope.row(s) / floor;
+        y.row(c) = (sensing::low_pass(measured.values, trial.period, bounded(cutoff, trial.period))
+                        .transpose()
+                        .array() -
+                    offset[s]) /
+                   floor;
+      }
+    }
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(C);
+  return qr.rank() == C.cols() ? Eigen::MatrixXd(qr.solve(y)) : Eigen::MatrixXd();
+}
+
+Motion differentiated(Eigen::MatrixXd z, double period) {
+  const Eigen::Index n = z.cols() - 2;
+  Motion motion{std::move(z), {}, {}};
+  motion.v = Eigen::MatrixXd::Zero(motion.z.rows(), n + 2);
+  motion.a = motion.v;
+  motion.v.middleCols(1, n) = (motion.z.rightCols(n) - motion.z.leftCols(n)) / (2.0 * period);
+  motion.a.middleCols(1, n) =
+      (motion.z.rightCols(n) - 2.0 * motion.z.middleCols(1, n) + motion.z.leftCols(n)) / (period * period);
+  for (Eigen::MatrixXd* rows : {&motion.v, &motion.a}) {
+    rows->col(0) = rows->col(1);
+    rows->col(n + 1) = rows->col(n);
+  }
+  return motion;
+}
+
+Eigen::MatrixXd recorded_commands(const model::Plant& plant, const Trial& trial) {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(plant.motors(), trial.samples());
+  for (const Command& command : trial.commands) {
+    for (int m = 0; m < plant.motors(); ++m) {
+      if (plant.model().motors[static_cast<std::size_t>(m)].name == command.motor) {
+        const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
+        for (Eigen::Index k = 0; k < trial.samples(); ++k) {
+          u(m, k) = command.values[std::max<Eigen::Index>(0, k - late)];
+        }
+      }
+    }
+  }
+  return u;
+}
+
+/// Position (velocity) of each motor for each independent one.
+Eigen::MatrixXd motor_map(const model::Plant& plant) {
+  Eigen::MatrixXd map(plant.motors(), plant.positions());
+  for (int i = 0; i < plant.positions(); ++i) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+    x[plant.positions() + i] = 1.0;
+    for (int m = 0; m < plant.motors(); ++m) {
+      map(m, i) = plant.velocity_of(plant.model().motors[static_cast<std::size_t>(m)].name, x.data());
+    }
+  }
+  return map;
+}
+
+std::vector<int> moving_motors(const Eigen::MatrixXd& map) {
+  std::vector<int> moving;
+  for (Eigen::Index m = 0; m < map.rows(); ++m) {
+    if (map.row(m).cwiseAbs().maxCoeff() > 1e-9) {
+      moving.push_back(static_cast<int>(m));
+    }
+  }
+  return moving;
+}
+
+/// Acceleration of the independent positions, and its slope with the moving motors' commands.
+class Accelerations {
+ public:
+  Accelerations(model::Plant& plant, const std::vector<int>& moving, const Eigen::MatrixXd& commands)
+      : plant_(plant), moving_(moving), x_(Eigen::VectorXd::Zero(plant.states())), rate_(plant.states()) {
+    for (const int m : moving) {
+      steps_.push_back(std::max(1e-3 * commands.row(m).cwiseAbs().maxCoeff(), 1e-9));
+    }
+  }
+
+  /// Commands that give the acceleration a, in the order of the moving motors.
+  Eigen::VectorXd needed(const Eigen::VectorXd& z, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                         const Eigen::VectorXd& command) {
+    const auto n = static_cast<Eigen::Index>(moving_.size());
+    x_.head(n) = z;
+    x_.segment(n, n) = v;
+    const Eigen::VectorXd given = at(command);
+    Eigen::MatrixXd slope(n, n);
+    Eigen::VectorXd u(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto step = steps_[static_cast<std::size_t>(i)];
+      const int m = moving_[static_cast<std::size_t>(i)];
+      Eigen::VectorXd moved = command;
+      moved[m] += step;
+      slope.col(i) = (at(moved) - given) / step;
+      u[i] = command[m];
+    }
+    return u + slope.colPivHouseholderQr().solve(a - given);
+  }
+
+ private:
+  Eigen::VectorXd at(const Eigen::VectorXd& command) {
+    plant_.rate(x_.data(), command.data(), rate_.data());
+    return rate_.segment(plant_.positions(), plant_.positions());
+  }
+
+  model::Plant& plant_;
+  const std::vector<int>& moving_;
+  std::vector<double> steps_;
+  Eigen::VectorXd x_, rate_;
+};
+
+std::string no_inverse(const model::Plant& plant, const std::vector<int>& moving, const Trial& trial) {
+  if (plant.states() > 2 * plant.positions()) {
+    return "the model has hidden states, which the measured positions do not show";
+  }
+  if (static_cast<int>(moving.size()) != plant.positions()) {
+    return std::to_string(plant.positions()) + " independent positions but " + std::to_string(moving.size()) +
+           " motors that can move";
+  }
+  for (const int m : moving) {
+    const std::string& name = plant.model().motors[static_cast<std::size_t>(m)].name;
+    if (std::none_of(trial.commands.begin(), trial.commands.end(),
+                     [&](const Command& command) { return command.motor == name; })) {
+      return "the command of motor " + name + " was not recorded";
+    }
+  }
+  return "";
+}
+
+double correlation_of(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const double sizes = a.norm() * b.norm();
+  return sizes > 0.0 ? a.dot(b) / sizes : 0.0;
+}
+
+double slope_of(const Eigen::VectorXd& needed, const Eigen::VectorXd& commanded) {
+  const double size = commanded.squaredNorm();
+  return size > 0.0 ? needed.dot(commanded) / size : 0.0;
+}
+
+CommandGain gain_of(const NeededForce& force) {
+  CommandGain result;
+  result.motor = force.motor;
+  const Eigen::VectorXd needed = force.needed.array() - force.needed.mean();
+  const Eigen::VectorXd commanded = force.recorded.array() - force.recorded.mean();
+  result.gain = slope_of(needed, commanded);
+  result.correlation = correlation_of(needed, commanded);
+  const double speed = std::sqrt(force.velocity.squaredNorm() / static_cast<double>(force.velocity.size()));
+  Eigen::MatrixXd friction(needed.size(), 4);
+  friction.col(0).setOnes();
+  friction.col(1) = force.position;
+  friction.col(2) = force.velocity;
+  // Smoothed over a small share of the usual speed: friction at a reversal is not a jump.
+  friction.col(3) = (force.velocity / (0.02 * speed + 1e-300)).array().tanh();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(friction);
+  const Eigen::VectorXd needed_core = needed - friction * qr.solve(needed);
+  const Eigen::VectorXd commanded_core = commanded - friction * qr.solve(commanded);
+  result.core_gain = slope_of(needed_core, commanded_core);
+  result.core_correlation = correlation_of(needed_core, commanded_core);
+  return result;
+}
+
+}  // namespace
+
+double NeededForce::error_percent() const {
+  const double size = recorded.norm();
+  return size > 0.0 ? 100.0 * (recorded - needed).norm() / size : 0.0;
+}
+
+InverseModel inverse_model(const model::Model& model, const Trial& trial,
+                           const InverseModelOptions& options) {
+  InverseModel result;
+  model::Plant plant(model, locks_of(trial));
+  const Eigen::MatrixXd map = motor_map(plant);
+  const std::vector<int> moving = moving_motors(map);
+  result.not_available = no_inverse(plant, moving, trial);
+  const double cutoff = bounded(options.force_cutoff, trial.period);
+  const auto edge = static_cast<Eigen::Index>(std::ceil(kEdgePeriods / (cutoff * trial.period)));
+  const Eigen::Index n = trial.samples();
+  if (result.not_available.empty() && n < 4 * edge) {
+    result.not_available = "the record is shorter than the filters' ends";
+  }
+  if (!result.not_available.empty()) {
+    return result;
+  }
+  Eigen::MatrixXd z = positions(plant, trial, options.motion_cutoff);
+  if (z.size() == 0) {
+    result.not_available = "the sensors do not show every independent position";
+    return result;
+  }
+  const Motion motion = differentiated(std::move(z), trial.period);
+  const Eigen::MatrixXd recorded = recorded_commands(plant, trial);
+  Accelerations accelerations(plant, moving, recorded);
+  Eigen::MatrixXd needed(static_cast<Eigen::Index>(moving.size()), n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    needed.col(k) = accelerations.needed(motion.z.col(k), motion.v.col(k), motion.a.col(k), recorded.col(k));
+  }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const int m = moving[i];
+    const double gain = plant.torque_gain(m);
+    const model::Motor& motor = model.motors[static_cast<std::size_t>(m)];
+    const auto filtered = [&](const Eigen::VectorXd& command) -> Eigen::VectorXd {
+      return gain * sensing::low_pass(command, trial.period, cutoff).segment(edge, n - 2 * edge);
+    };
+    const auto of_motor = [&](const Eigen::MatrixXd& rows) -> Eigen::VectorXd {
+      return (map.row(m) * rows).transpose().segment(edge, n - 2 * edge);
+    };
+    result.motors.push_back({motor.name, motor.angular ? "N m" : "N", filtered(recorded.row(m).transpose()),
+                             filtered(needed.row(static_cast<Eigen::Index>(i)).transpose()),
+                             of_motor(motion.z), of_motor(motion.v), of_motor(motion.a)});
+  }
+  return result;
+}
+
+bool CommandGain::implausible() const {
+  constexpr double kFollows = 0.7;
+  constexpr double kFactor = 4.0;
+  if (gain > kFactor) {
+    return correlation > kFollows;
+  }
+  return gain < 1.0 / kFactor && core_gain < 1.0 / kFactor && core_correlation > kFollows;
+}
+
+std::vector<CommandGain> command_gains(const model::Model& model, const Trial& trial) {
+  std::vector<CommandGain> gains;
+  for (const NeededForce& force : inverse_model(model, trial, {}).motors) {
+    gains.push_back(gain_of(force));
+  }
+  return gains;
+}
+
+void check_command_units(const model::Model& model, const Trial& trial) {
+  for (const CommandGain& gain : command_gains(model, trial)) {
+    if (!gain.implausible()) {
+      continue;
+    }
+    for (const Command& command : trial.commands) {
+      if (command.motor != gain.motor) {
+        continue;
+      }
+      const std::string& unit = model.find_motor(gain.motor)->command_unit;
+      const std::string column =
+          "column \"" + command.column + "\" in " + (command.unit.empty() ? unit : command.unit);
+      char factor[32];
+      std::snprintf(factor, sizeof factor, "%.3g", gain.gain);
+      throw InputError(
+          {trial.file, 0, "commands." + gain.motor + ".column"},
+          "that the measured motion needs " + std::string(factor) + " times the force of " + column,
+          "about 1 times: the unit of this column is probably wrong (here, or as the motor's "
+          "command_unit in the model), or that of a measured position");
+    }
+  }
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,161 @@
+// Gauss-Newton on the reduced equations of all windows.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/predict/box_least_squares.h"
+#include "validation/predict/estimate.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// Where the search stands: values, initial states and, once reduced, the equations there.
+struct Point {
+  Eigen::VectorXd theta;
+  std::vector<Eigen::VectorXd> x0;
+};
+
+struct Step {
+  Eigen::VectorXd delta;         // parameters, search units
+  std::vector<Eigen::VectorXd> x;  // change of each initial state
+};
+
+Point moved(const Point& from, const Step& step, double share, const std::vector<FreeParameter>& parameters,
+            const Eigen::VectorXd& units) {
+  Point to = from;
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double search = to_search(parameter.scale, from.theta[p]) + share * step.delta[p] * units[p];
+    to.theta[p] = std::clamp(from_search(parameter.scale, search), parameter.lower, parameter.upper);
+  }
+  for (std::size_t w = 0; w < to.x0.size(); ++w) {
+    to.x0[w] += share * step.x[w];
+  }
+  return to;
+}
+
+struct Passes {
+  PredictorPool& pool;
+  const std::vector<FreeParameter>& parameters;
+  std::vector<int> windows;
+
+  std::vector<Reduced> reduce_at(const Point& point, const Eigen::VectorXd& units) {
+    return reduce(pool, windows, parameters, point.theta, point.x0, units);
+  }
+};
+
+double train_cost(const Data& data, const std::vector<Reduced>& reduced) {
+  double cost = 0.0;
+  for (std::size_t w = 0; w < reduced.size(); ++w) {
+    cost += data.role(w) == Role::train ? reduced[w].sse : 0.0;
+  }
+  return cost;
+}
+
+/// The full step: parameters from the train windows within their room, every initial state after them.
+Step full_step(const Data& data, const std::vector<Reduced>& reduced, const Room& bounds, double* promise) {
+  const Eigen::Index n = bounds.lower.size();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+  double raw = 0.0;
+  double left = 0.0;
+  for (std::size_t w = 0; w < reduced.size(); ++w) {
+    raw += reduced[w].raw_sse;
+    left += reduced[w].sse;
+    if (data.role(w) == Role::train) {
+      H += reduced[w].H;
+      g += reduced[w].g;
+    }
+  }
+  Step step;
+  step.delta = n > 0 ? box_least_squares(H, g, bounds.lower, bounds.upper) : Eigen::VectorXd();
+  const double gain = n > 0 ? 2.0 * g.dot(step.delta) - step.delta.dot(H * step.delta) : 0.0;
+  *promise = (gain + raw - left) / std::max(left, 1e-300);
+  for (const Reduced& one : reduced) {
+    step.x.push_back(n > 0 ? Eigen::VectorXd(one.x_shift - one.x_slope * step.delta) : one.x_shift);
+  }
+  return step;
+}
+
+bool is_finite(const std::vector<Reduced>& reduced) {
+  return std::all_of(reduced.begin(), reduced.end(), [](const Reduced& one) {
+    return std::isfinite(one.sse) && one.H.allFinite() && one.g.allFinite() && one.x_shift.allFinite();
+  });
+}
+
+}  // namespace
+
+Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                      const EstimateOptions& options) {
+  const Data& data = pool.data();
+  Passes passes{pool, parameters, {}};
+  for (std::size_t w = 0; w < data.windows.size(); ++w) {
+    passes.windows.push_back(static_cast<int>(w));
+  }
+  Point here{start, start_x0};
+  here.x0.resize(data.windows.size());
+  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    if (here.x0[i].size() == 0) {
+      pool.with(w, parameters, start,
+                [&](Predictor& predictor) { here.x0[i] = predictor.initial_state(data.windows[i]); });
+    }
+  });
+  const Eigen::VectorXd units = search_units(parameters, start);
+  std::vector<Reduced> reduced = passes.reduce_at(here, units);
+  if (!is_finite(reduced)) {
+    throw std::runtime_error("the prediction is not finite at the start values");
+  }
+  Estimate result;
+  for (result.iterations = 1; result.iterations < options.iterations; ++result.iterations) {
+    double promise = 0.0;
+    const Step step = full_step(data, reduced, room(parameters, here.theta, units), &promise);
+    if (promise < options.tolerance) {
+      result.converged = true;
+      break;
+    }
+    bool better = false;
+    for (double share = 1.0; share > 0.01 && !better; share *= 0.3) {
+      const Point there = moved(here, step, share, parameters, units);
+      try {
+        std::vector<Reduced> next = passes.reduce_at(there, units);
+        if (is_finite(next) && train_cost(data, next) < train_cost(data, reduced) * (1.0 + options.tolerance)) {
+          here = there;
+          reduced = std::move(next);
+          better = true;
+        }
+      } catch (const Stopped&) {
+        throw;
+      } catch (const std::runtime_error&) {
+        continue;  // the integrator gave up there: a shorter step
+      }
+    }
+    if (!better) {
+      break;
+    }
+  }
+  result.theta = here.theta;
+  result.x0 = here.x0;
+  for (std::size_t w = 0; w < reduced.size(); ++w) {
+    result.x0[w] += reduced[w].x_shift;
+    result.square.push_back(reduced[w].square);
+  }
+  result.scores = score(data, result.square);
+  return result;
+}
+
+Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+          const Eigen::VectorXd& units) {
+  Room b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = to_search(parameter.scale, theta[p]);
+    const double one = (to_search(parameter.scale, parameter.lower) - here) / units[p];
+    const double two = (to_search(parameter.scale, parameter.upper) - here) / units[p];
+    b.lower[p] = std::min({one, two, 0.0});
+    b.upper[p] = std::max({one, two, 0.0});
+  }
+  return b;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,54 @@
+// Normal equations of windows with their initial states eliminated.
+#include <Eigen/QR>
+
+#include "validation/predict/estimate.h"
+
+namespace plumbline::validation {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace
+
+std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
+                            const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                            const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units) {
+  const Data& data = pool.data();
+  std::vector<Reduced> all(windows.size());
+  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
+  parallel_for(static_cast<int>(windows.size()), data.threads, [&](int i) {
+    const int w = windows[static_cast<std::size_t>(i)];
+    Reduced& out = all[static_cast<std::size_t>(i)];
+    pool.with(w, parameters, theta, [&](Predictor& predictor) {
+      const Window& window = data.windows[static_cast<std::size_t>(w)];
+      const Eigen::VectorXd& given = x0[static_cast<std::size_t>(w)];
+      const Eigen::VectorXd start = given.size() > 0 ? given : predictor.initial_state(window);
+      const Linearisation lin = predictor.linearise(window, start, parameters);
+      const Eigen::Index nx = start.size();
+      const Eigen::Index rows = lin.r.size();
+      Eigen::MatrixXd X(rows + nx, nx);
+      X.topRows(rows) = lin.Jx;
+      X.bottomRows(nx) = predictor.initial_spread(window).cwiseInverse().asDiagonal();
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
+      const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
+      const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
+      const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
+      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
+      out.H = Jp.transpose() * Jp - QtJ.transpose() * QtJ;
+      out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
+      out.raw_sse = lin.r.squaredNorm();
+      out.sse = out.raw_sse - Qtr.squaredNorm();
+      const Eigen::VectorXd left = lin.r - Q.topRows(rows) * Qtr;
+      out.square = Eigen::Map<const Matrix>(left.data(), window.count, predictor.channels())
+                       .colwise()
+                       .squaredNorm()
+                       .transpose();
+      const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
+      out.x_shift = R.solve(Qtr);
+      out.x_slope = R.solve(QtJ);
+    });
+  });
+  return all;
+}
+
+}  // namespace plumbline::validation
