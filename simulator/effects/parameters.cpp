@@ -54,7 +54,7 @@ Scales guarded(const Scales& scales) {
   return result;
 }
 
-double smoothing_speed_for(const Scales& scales) { return 0.02 * guarded(scales).velocity; }
+double smoothing_speed_for(const Scales& scales) { return 0.002 * guarded(scales).velocity; }
 
 double smooth_sign(double v, double speed) {
   if (speed > 0.0) return std::tanh(v / speed);

@@ -33,7 +33,7 @@ Parameter fixed_side();
 /// finite and not zero.
 Scales guarded(const Scales& scales);
 
-/// Sensible smoothing speed: 2 % of the root-mean-square velocity, {position}/s.
+/// Sensible smoothing speed: 0.2 % of the root-mean-square velocity, {position}/s.
 double smoothing_speed_for(const Scales& scales);
 
 /// tanh(v / speed), a smooth sign(v); the sign itself when speed is not positive. (Andersson, Soderberg and

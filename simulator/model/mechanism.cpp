@@ -3,6 +3,7 @@
 #include <Simbody.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace plumbline::model {
 namespace {
@@ -129,7 +130,13 @@ struct Mechanism::Impl {
   }
 };
 
-Mechanism::Mechanism(const Skeleton& skeleton) : impl_(std::make_unique<Impl>(skeleton)) {}
+Mechanism::Mechanism(const Skeleton& skeleton) {
+  try {
+    impl_ = std::make_unique<Impl>(skeleton);
+  } catch (const SimTK::Exception::Base& error) {
+    throw std::runtime_error(skeleton.file + ": Simbody refuses the skeleton: " + error.getMessageText());
+  }
+}
 Mechanism::~Mechanism() = default;
 Mechanism::Mechanism(Mechanism&&) noexcept = default;
 Mechanism& Mechanism::operator=(Mechanism&&) noexcept = default;

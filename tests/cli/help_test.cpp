@@ -11,6 +11,12 @@ namespace {
 
 using testing::HasSubstr;
 
+std::string name_of(const testing::TestParamInfo<std::string>& command) {
+  std::string name = command.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 class Help : public testing::TestWithParam<std::string> {};
 
 TEST_P(Help, ShowsUsageJsonOptionAndAnExample) {
@@ -29,7 +35,8 @@ std::vector<std::string> example_of(const std::string& command) {
   const std::size_t at = text.find(start);
   std::vector<std::string> words;
   if (at != std::string::npos) {
-    std::istringstream line(text.substr(at + start.size(), text.find('\n', at + start.size()) - at - start.size()));
+    std::istringstream line(
+        text.substr(at + start.size(), text.find('\n', at + start.size()) - at - start.size()));
     for (std::string word; line >> word;) {
       word.erase(std::remove(word.begin(), word.end(), '\''), word.end());
       words.push_back(word);
@@ -52,17 +59,13 @@ TEST_P(Help, ExampleUsesOnlyOptionsThatExist) {
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("effects", "check", "simulate", "compare", "fit", "diagnose", "add",
                                          "ladder", "new-trial", "twin"),
-                         [](const auto& info) {
-                           std::string name = info.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of);
 
 TEST(Program, ListsEveryCommand) {
   const Outcome outcome = run({"--help"}, "/");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* command : {"effects", "check", "simulate", "compare", "fit", "diagnose", "add", "ladder",
-                              "new-trial", "twin"}) {
+  for (const char* command :
+       {"effects", "check", "simulate", "compare", "fit", "diagnose", "add", "ladder", "new-trial", "twin"}) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  ") + command + " "));
   }
 }

@@ -5,10 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace plumbline::test {
 namespace {
@@ -60,6 +63,22 @@ Process::~Process() {
   }
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
+}
+
+void Process::wait_until_ready() const {
+  const std::string status = "/proc/" + std::to_string(pid_) + "/status";
+  for (int tries = 0; tries < 2000; ++tries) {
+    std::istringstream lines(content(status));
+    for (std::string line; std::getline(lines, line);) {
+      // "SigCgt:" and the signals that are caught, as bits in hexadecimal; signal n is bit n - 1
+      const bool caught = line.rfind("SigCgt:", 0) == 0 &&
+                          (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0U;
+      if (caught) {
+        return;
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 void Process::interrupt() const { ::kill(pid_, SIGINT); }

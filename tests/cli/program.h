@@ -21,6 +21,8 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  /// Waits until it catches SIGINT itself: before that, Ctrl-C would just end it.
+  void wait_until_ready() const;
   void interrupt() const;  ///< as Ctrl-C does
   bool is_running();
   Outcome wait();

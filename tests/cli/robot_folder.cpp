@@ -35,7 +35,8 @@ std::string experiment(const std::string& role, const std::string& duration, con
 class Original {
  public:
   Original() : path_(new_folder()) {
-    fs::copy(fs::path(PLUMBLINE_ROOT) / "tests/robots/pendulum", path_ / "robot", fs::copy_options::recursive);
+    fs::copy(fs::path(PLUMBLINE_ROOT) / "tests/robots/pendulum", path_ / "robot",
+             fs::copy_options::recursive);
     fs::remove_all(path_ / "robot/experiments");
     write_file(path_ / "experiments/chirp.yaml",
                experiment("train", "2",
@@ -48,10 +49,11 @@ class Original {
                experiment("held-out", "2",
                           "{kind: multisine, frequencies: [0.7 Hz, 2.3 Hz], amplitudes: [0.4, 0.6], phases: "
                           "[0 deg, 130 deg], unit: A}"));
-    const Outcome made = run({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008,smoothing_speed=0.5",
-                              "--experiment", "experiments/chirp.yaml", "experiments/steps.yaml",
-                              "experiments/swing.yaml", "--out", "trials"},
-                             path_.string());
+    const Outcome made =
+        run({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008,smoothing_speed=0.5",
+             "--experiment", "experiments/chirp.yaml", "experiments/steps.yaml", "experiments/swing.yaml",
+             "--out", "trials"},
+            path_.string());
     if (made.status != 0) {
       throw std::runtime_error("plumbline twin failed: " + made.err);
     }
@@ -119,6 +121,23 @@ std::map<std::string, std::string> RobotFolder::snapshot() const {
     files[name] = entry.is_regular_file() ? read(name) : "a folder";
   }
   return files;
+}
+
+std::vector<std::string> RobotFolder::changed_since(const std::map<std::string, std::string>& before) const {
+  const std::map<std::string, std::string> now = snapshot();
+  std::vector<std::string> names;
+  for (const auto& [name, content] : now) {
+    const auto found = before.find(name);
+    if (found == before.end() || found->second != content) {
+      names.push_back(name);
+    }
+  }
+  for (const auto& [name, content] : before) {
+    if (now.count(name) == 0) {
+      names.push_back(name);
+    }
+  }
+  return names;
 }
 
 std::vector<std::string> keys(const nlohmann::json& object) {

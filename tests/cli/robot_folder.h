@@ -16,8 +16,8 @@ namespace plumbline::test {
 /// chirp and steps (train), swing (held-out). Hidden in them: Coulomb friction at the drive.
 class RobotFolder : public testing::Test {
  public:
-  static constexpr double kHiddenLevel = 0.008;           // N m
-  static constexpr double kHiddenSmoothingSpeed = 0.5;    // rad/s
+  static constexpr double kHiddenLevel = 0.008;         // N m
+  static constexpr double kHiddenSmoothingSpeed = 0.5;  // rad/s
 
  protected:
   void SetUp() override;
@@ -35,6 +35,8 @@ class RobotFolder : public testing::Test {
   void remove(const std::string& name) const;
   /// Every file and its content.
   std::map<std::string, std::string> snapshot() const;
+  /// Names of files that have come, gone or changed.
+  std::vector<std::string> changed_since(const std::map<std::string, std::string>& before) const;
 
   std::string folder;
 };

@@ -20,11 +20,12 @@ bool sensor_is_angular(const Model& model, const std::string& sensor) {
 
 std::string kind_of(bool angular) { return angular ? "rotary" : "linear"; }
 
-/// "2 * hip + 0.5 * knee"
+/// "hip + 0.5 knee"
 std::string sum_text(const std::vector<model::Term>& terms) {
   std::string text;
   for (const model::Term& term : terms) {
-    text += (text.empty() ? "" : " + ") + fmt::format("{:g} * {}", term.factor, term.of);
+    text += (text.empty() ? "" : " + ") +
+            (term.factor == 1.0 ? term.of : fmt::format("{:g} {}", term.factor, term.of));
   }
   return text;
 }

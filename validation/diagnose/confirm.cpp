@@ -144,7 +144,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   }
   std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
   for (Refit& one : refits) {
-    if (!one.estimate.converged && one.square() < 1.3 * refits.front().square() + 0.1) {
+    if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
       progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
       continue_refit(one, data, 8);
     }

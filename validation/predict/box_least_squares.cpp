@@ -6,16 +6,15 @@
 
 namespace plumbline::validation {
 
-Eigen::VectorXd box_least_squares(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
+Eigen::VectorXd box_least_squares(const Eigen::MatrixXd& data, const Eigen::VectorXd& g,
                                   const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const Eigen::Index n = g.size();
   // The unconstrained minimum is usually inside.
-  Eigen::MatrixXd ridge = H;
-  ridge.diagonal() *= 1.0 + 1e-10;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(ridge);
+  Eigen::MatrixXd H = data;
+  H.diagonal().array() += kPriorPrecision;
+  const Eigen::LDLT<Eigen::MatrixXd> factor(H);
   Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
-  if (n > 0 && factor.info() == Eigen::Success && factor.isPositive() &&
-      factor.vectorD().minCoeff() > 1e-12 * std::max(1e-300, factor.vectorD().maxCoeff())) {
+  if (n > 0 && factor.info() == Eigen::Success && factor.isPositive()) {
     d = factor.solve(g);
     if ((d.array() >= lower.array()).all() && (d.array() <= upper.array()).all()) {
       return d;

@@ -1,0 +1,60 @@
+// What the battery tries: which effect is hidden where, how strong, and on which robot. Data only; nothing is
+// simulated here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+
+namespace plumbline::battery {
+
+/// hidden: the effect is in the data and in the catalogue. none: nothing is in the data that the model does
+/// not have. removed: the effect is in the data, but the catalogue knows neither it nor laws that contain it.
+enum class Kind { hidden, none, removed };
+std::string to_string(Kind kind);
+
+enum class Strength { weak, strong };
+std::string to_string(Strength strength);
+
+/// Files are relative to the project's root.
+struct Robot {
+  std::string name;
+  std::string model;
+  std::vector<std::string> experiments;
+};
+
+/// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is
+/// NUMBER, or WEAK|STRONG when it differs between the strengths; BASE+NUMBER or BASE-NUMBER adds a base that
+/// is never varied ("scale=1+0.01|0.1", "rest=0.35-0.05").
+struct Row {
+  std::string effect, at, parameters;
+};
+
+struct Case {
+  std::string name;   ///< "leg_bench/coulomb@mLA/weak"
+  std::string robot;  ///< Robot::name
+  Kind kind = Kind::hidden;
+  Strength strength = Strength::strong;
+  Row row;                           ///< empty when nothing is hidden
+  std::vector<std::string> removed;  ///< laws that this case takes out of the catalogue
+};
+
+const std::vector<Robot>& robots();
+/// Throws std::out_of_range when the name is unknown.
+const Robot& robot_of(const Case& one);
+
+/// The tables (table.cpp).
+const std::vector<Row>& leg_bench_rows();
+const std::vector<Row>& pendulum_rows();
+
+/// All cases in the order of the tables.
+std::vector<Case> all_cases();
+
+/// Pairs (effect, place) that belong into the leg bench's table: every law of the catalogue at every place
+/// where it can sit, but a law that sits at motors is left out at coordinates that are rigidly a motor's, and
+/// bodies that the bench hides behind rigid ratios (or that do not move) are left out.
+std::vector<Row> expected_leg_bench_rows(const model::Model& model, const effects::Catalogue& catalogue);
+
+}  // namespace plumbline::battery

@@ -1,0 +1,136 @@
+// Checks of the battery's table, without running any case: every case reads, its draws stay in bounds and differ, and no
+// effect that can sit on the bench is forgotten. Prints what is wrong; exit status 1 then.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <set>
+
+#include "simulator/model/robot_file.h"
+#include "tests/battery/draw.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::battery {
+namespace {
+
+class Checks {
+ public:
+  void expect(bool held, const std::string& what) {
+    ++count_;
+    if (!held) {
+      ++failed_;
+      fmt::print(stderr, "FAILED: {}\n", what);
+    }
+  }
+  int finish() const {
+    fmt::print("{} checks, {} failed\n", count_, failed_);
+    return failed_ == 0 && count_ > 0 ? 0 : 1;
+  }
+
+ private:
+  int count_ = 0, failed_ = 0;
+};
+
+std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT) + "/" + file; }
+
+/// The use that the command line would make of what the case hides.
+model::EffectUse use_of(const Case& one, const model::Model& model, std::uint64_t seed) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  Draw draw(one, seed);
+  return validation::parse_effect(drawn_effect(one, all, draw), model, all);
+}
+
+void check_hidden(const Case& one, const model::Model& model, Checks& checks) {
+  const effects::Values a = use_of(one, model, 1).numbers();
+  const effects::Values b = use_of(one, model, 2).numbers();
+  const effects::Law& law = *effects::Catalogue::all().find(one.row.effect);
+  checks.expect(!law.is_null(a.data()), one.name + " hides nothing");
+  checks.expect(a != b, one.name + " draws the same values from different seeds");
+  checks.expect(a == use_of(one, model, 1).numbers(), one.name + " draws different values from one seed");
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    if (law.declaration().parameters[p].structural) {
+      checks.expect(a[p] == b[p], one.name + " draws the structural " + law.declaration().parameters[p].name);
+    } else if (std::isfinite(a[p])) {
+      // Both lie within 20 % of the nominal value, which may have a base that is not varied.
+      const double ratio = std::max(std::abs(a[p]), std::abs(b[p])) / std::min(std::abs(a[p]), std::abs(b[p]));
+      checks.expect(a[p] == b[p] || ratio < 1.5001, one.name + " draws too widely");
+    }
+  }
+}
+
+void check_removed(const Case& one, Checks& checks) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  checks.expect(std::count(one.removed.begin(), one.removed.end(), one.row.effect) == 1,
+                one.name + " leaves its own effect in the catalogue");
+  for (const std::string& law : one.removed) {
+    checks.expect(all.find(law) != nullptr, one.name + " removes the unknown " + law);
+  }
+}
+
+void check_cases(Checks& checks) {
+  std::set<std::string> names;
+  for (const Case& one : all_cases()) {
+    try {
+      checks.expect(names.insert(one.name).second, one.name + " is there twice");
+      const model::Model model =
+          model::read_model(in_root(robot_of(one).model), effects::Catalogue::all());
+      if (one.kind != Kind::none) {
+        check_hidden(one, model, checks);
+      }
+      if (one.kind == Kind::removed) {
+        check_removed(one, checks);
+      }
+    } catch (const std::exception& error) {
+      checks.expect(false, one.name + ": " + error.what());
+    }
+  }
+}
+
+void check_experiments(Checks& checks) {
+  for (const Robot& robot : robots()) {
+    const model::Model model = model::read_model(in_root(robot.model), effects::Catalogue::all());
+    bool train = false;
+    bool held_out = false;
+    for (const std::string& file : robot.experiments) {
+      const validation::Role role = validation::read_experiment(in_root(file), model).role;
+      (role == validation::Role::train ? train : held_out) = true;
+    }
+    checks.expect(train && held_out, robot.name + " lacks train or held-out experiments");
+  }
+}
+
+void check_complete(Checks& checks) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  const model::Model model = model::read_model(in_root("robots/mabel/leg_bench.yaml"), all);
+  const std::vector<Row>& rows = leg_bench_rows();
+  const auto rows_of = [&](const std::string& effect, const std::string& at) {
+    return std::count_if(rows.begin(), rows.end(),
+                         [&](const Row& row) { return row.effect == effect && row.at == at; });
+  };
+  for (const Row& row : expected_leg_bench_rows(model, all)) {
+    checks.expect(rows_of(row.effect, row.at) == 1,
+                  "tests/battery/table.cpp needs one row for " + row.effect + "@" + row.at);
+  }
+  for (const auto& law : all.laws()) {
+    const std::string& name = law->declaration().name;
+    checks.expect(std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.effect == name; }),
+                  "tests/battery/table.cpp has no row for " + name);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::battery
+
+int main() {
+  try {
+    plumbline::battery::Checks checks;
+    plumbline::battery::check_experiments(checks);
+    plumbline::battery::check_cases(checks);
+    plumbline::battery::check_complete(checks);
+    return checks.finish();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "FAILED: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,30 @@
+// The random part of a case. The same seed gives the same numbers for a case, whichever others are run.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+
+#include "tests/battery/cases.h"
+
+namespace plumbline::battery {
+
+constexpr double kSpread = 0.2;  ///< share of the nominal value by which a drawn value differs at most
+
+/// Uniform numbers for one case and one seed; the same on every platform.
+class Draw {
+ public:
+  Draw(const Case& one, std::uint64_t seed);
+  /// Uniform in 1 +- kSpread.
+  double factor();
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// The effect that the case hides, "coulomb@mLA:level=0.0193,smoothing_speed=0.03": every parameter that is
+/// not structural is drawn around its nominal value. Throws std::invalid_argument when the row cannot be
+/// read or names an unknown effect or parameter.
+std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, Draw& draw);
+
+}  // namespace plumbline::battery

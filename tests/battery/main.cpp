@@ -1,0 +1,123 @@
+// The long trial of the diagnosis: effects are hidden in synthetic measurements, and it must name them.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <numeric>
+#include <random>
+
+#include "tests/battery/report.h"
+
+namespace plumbline::battery {
+namespace {
+
+struct Inputs {
+  RunOptions run;
+  std::vector<std::string> only;
+  std::size_t subset = 0;
+  bool list = false;
+  std::string json, csv;
+};
+
+/// Cases whose name contains one of the words; all when there are none.
+std::vector<Case> chosen(const std::vector<std::string>& words) {
+  std::vector<Case> cases = all_cases();
+  const auto is_left_out = [&](const Case& one) {
+    return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
+      return one.name.find(word) != std::string::npos;
+    });
+  };
+  cases.erase(std::remove_if(cases.begin(), cases.end(), is_left_out), cases.end());
+  return cases;
+}
+
+/// `count` of the cases, drawn with the seed, in the order of the tables.
+std::vector<Case> subset(const std::vector<Case>& cases, std::size_t count, std::uint64_t seed) {
+  if (count == 0 || count >= cases.size()) {
+    return cases;
+  }
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::swap(order[i], order[i + random() % (order.size() - i)]);
+  }
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  std::vector<Case> some;
+  for (const std::size_t i : order) {
+    some.push_back(cases[i]);
+  }
+  return some;
+}
+
+void show_bare(const Result& result) {
+  fmt::print("{:<44} {:>8.2f}  {}\n", result.one.name, result.bare, result.error.empty() ? result.with : result.error);
+}
+
+int run(const Inputs& inputs) {
+  const std::vector<Case> cases = subset(chosen(inputs.only), inputs.subset, inputs.run.seed);
+  if (cases.empty()) {
+    fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
+    return 2;
+  }
+  if (inputs.list) {
+    for (const Case& one : cases) {
+      fmt::print("{}\n", one.name);
+    }
+    return 0;
+  }
+  if (!inputs.run.bare_only) {
+    fmt::print("{}\n", table_head());
+  }
+  std::vector<Result> results;
+  for (const Case& one : cases) {
+    results.push_back(run_case(one, inputs.run));
+    inputs.run.bare_only ? show_bare(results.back()) : fmt::print("{}\n", table_line(results.back()));
+    std::fflush(stdout);
+  }
+  const Targets targets;
+  const Summary summary = summarise(results, targets);
+  if (!inputs.json.empty()) {
+    write_json(inputs.json, results, summary, targets, inputs.run.seed);
+  }
+  if (!inputs.csv.empty()) {
+    write_csv(inputs.csv, results);
+  }
+  if (inputs.run.bare_only) {
+    return summary.errors == 0 ? 0 : 1;
+  }
+  fmt::print("\n{}", summary_text(summary, targets));
+  return targets_met(summary, targets) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace plumbline::battery
+
+int main(int argc, char** argv) {
+  plumbline::battery::Inputs inputs;
+  CLI::App app{"Hides effects in synthetic measurements and looks whether the diagnosis names them.\n"
+               "Exit status: 0 all targets met, 1 a target missed, 2 bad input.",
+               "battery"};
+  app.add_option("--seed", inputs.run.seed, "seed of the drawn parameters")->capture_default_str();
+  app.add_option("--only", inputs.only, "only cases whose name contains SUBSTRING; may be repeated")
+      ->type_name("SUBSTRING")
+      ->allow_extra_args(false);
+  app.add_option("--subset", inputs.subset, "only K cases, drawn with the seed")->type_name("K");
+  app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
+  app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");
+  app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is");
+  app.add_flag("--list", inputs.list, "only the names of the cases");
+  try {
+    app.parse(argc, argv);
+    return plumbline::battery::run(inputs);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "battery: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,83 @@
+// The same question twice has the same answer, to the last bit.
+#include <gtest/gtest.h>
+
+#include "tests/limits/bench.h"
+#include "validation/predict/estimate.h"
+
+namespace plumbline::limits {
+namespace {
+
+model::Model several_effects() {
+  model::Model model = with_effect(leg_bench(), "coulomb", "mLA", {0.05, 0.05});
+  model = with_effect(model, "cable_stretch", "leg_angle", {5.0, 0.01});
+  return with_effect(model, "actuator_lag", "mLS", {0.005});
+}
+
+TEST(Repeatability, TwoRunsAreTheSameBitForBit) {
+  const model::Model model = several_effects();
+  const validation::Experiment experiment = both_motors(model, 0.5);
+  const integrate::RunResult one = simulate(model, experiment, options_at(1e-6));
+  const integrate::RunResult two = simulate(model, experiment, options_at(1e-6));
+  EXPECT_TRUE(one.states == two.states);
+  EXPECT_TRUE(one.outputs == two.outputs);
+  EXPECT_EQ(one.energy_error, two.energy_error);
+  EXPECT_EQ(one.summary.rate_evaluations, two.summary.rate_evaluations);
+}
+
+TEST(Repeatability, TwoPredictorsGiveTheSameResiduals) {
+  const model::Model model = several_effects();
+  const validation::Trial trial = validation::twin(leg_bench(), both_motors(model, 1.0), {});
+  validation::Predictor one(model, trial, {});
+  validation::Predictor two(model, trial, {});
+  for (const validation::Window& window : validation::cut_windows({trial}, {})) {
+    const Eigen::VectorXd x0 = one.initial_state(window);
+    EXPECT_TRUE(x0 == two.initial_state(window));
+    const Eigen::VectorXd r = one.residual(window, x0);
+    EXPECT_TRUE(r == two.residual(window, x0));
+    EXPECT_TRUE(r == one.residual(window, x0)) << "a predictor remembers its last window";
+    EXPECT_TRUE(one.linearise(window, x0, {}).Jx == two.linearise(window, x0, {}).Jx);
+  }
+}
+
+using Solver = validation::Estimate (*)(validation::PredictorPool&,
+                                        const std::vector<validation::FreeParameter>&, const Eigen::VectorXd&,
+                                        const std::vector<Eigen::VectorXd>&,
+                                        const validation::EstimateOptions&);
+
+validation::Estimate estimate_with(Solver solver, int threads) {
+  const model::Model model = with_effect(leg_bench(), "coulomb", "mLA", {0.01, 0.05});
+  const model::Model truth = with_effect(leg_bench(), "coulomb", "mLA", {0.05, 0.05});
+  validation::Data data({validation::twin(truth, both_motors(truth, 2.0), {})}, {});
+  data.trials.front().role = validation::Role::train;
+  data.threads = threads;
+  validation::PredictorPool pool(model, data);
+  const int last = static_cast<int>(model.effects.size()) - 1;
+  std::vector<validation::FreeParameter> free(2);
+  free[0].id = {last, 0};
+  free[1].id = {0, 0};
+  for (validation::FreeParameter& parameter : free) {
+    parameter.upper = 1.0;
+    parameter.typical = 0.01;
+  }
+  validation::EstimateOptions options;
+  options.iterations = 5;
+  return solver(pool, free, Eigen::Vector2d(0.01, 4.316e-3), {}, options);
+}
+
+void expect_same(Solver solver) {
+  const validation::Estimate one = estimate_with(solver, 1);
+  const validation::Estimate two = estimate_with(solver, 2);
+  EXPECT_NEAR(one.theta[0], 0.05, 5e-3);
+  EXPECT_TRUE(one.theta == two.theta) << one.theta.transpose() << " and " << two.theta.transpose();
+  EXPECT_EQ(one.scores.train, two.scores.train);
+  ASSERT_EQ(one.x0.size(), two.x0.size());
+  for (std::size_t w = 0; w < one.x0.size(); ++w) {
+    EXPECT_TRUE(one.x0[w] == two.x0[w]);
+  }
+}
+
+TEST(Repeatability, EstimateDoesNotDependOnTheNumberOfThreads) { expect_same(validation::estimate); }
+TEST(Repeatability, GaussNewtonDoesNotDependOnTheNumberOfThreads) { expect_same(validation::gauss_newton); }
+
+}  // namespace
+}  // namespace plumbline::limits

@@ -1,0 +1,146 @@
+// The sensitivities that every fit and diagnosis rests on, against differences of whole predicted windows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/limits/bench.h"
+#include "validation/predict/windows.h"
+
+namespace plumbline::limits {
+namespace {
+
+using validation::FreeParameter;
+using validation::Predictor;
+using validation::Window;
+
+constexpr double kShare = 1e-3;  // of a column's norm
+
+struct Moved {
+  std::string effect, at, parameter;
+  double typical = 0.0;  // a step of difference is 1e-3 of it
+};
+
+struct Case {
+  std::string label;
+  std::vector<std::string> added;  // as on the command line
+  std::vector<Moved> moved;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& one) { return out << one.label; }
+
+FreeParameter free_parameter(const model::Model& model, const Moved& moved) {
+  FreeParameter parameter;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const model::EffectUse& use = model.effects[e];
+    if (use.law->declaration().name == moved.effect && use.at == moved.at) {
+      const int p = use.law->parameter_index(moved.parameter);
+      const effects::Parameter& declared = use.law->declaration().parameters[static_cast<std::size_t>(p)];
+      parameter.id = {static_cast<int>(e), p};
+      parameter.label = moved.effect + "@" + moved.at + ":" + moved.parameter;
+      parameter.lower = declared.lower;
+      parameter.upper = declared.upper;
+    }
+  }
+  parameter.typical = moved.typical;
+  return parameter;
+}
+
+class Tangent : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    for (const std::string& text : GetParam().added) {
+      model_.effects.push_back(validation::parse_effect(text, model_, effects::Catalogue::all()));
+    }
+    trial_ = validation::twin(model_, both_motors(model_, 0.8), {});
+    validation::PredictOptions fine;
+    fine.relative_tolerance = 1e-11;
+    exact_ = std::make_unique<Predictor>(model_, trial_, fine);
+    window_ = {0, 250, 500};
+    x0_ = exact_->initial_state(window_);
+  }
+
+  void expect_column(const Eigen::VectorXd& found, const Eigen::VectorXd& expected,
+                     const std::string& label) {
+    const double share = (found - expected).norm() / expected.norm();
+    std::printf("%-24s %-42s %9.2e\n", GetParam().label.c_str(), label.c_str(), share);
+    EXPECT_GT(expected.norm(), 0.0) << label;
+    EXPECT_LT(share, kShare) << label;
+  }
+
+  model::Model model_ = leg_bench();
+  validation::Trial trial_;
+  std::unique_ptr<Predictor> exact_;
+  Window window_;
+  Eigen::VectorXd x0_;
+};
+
+TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
+  std::vector<FreeParameter> parameters;
+  for (const Moved& moved : GetParam().moved) {
+    parameters.push_back(free_parameter(model_, moved));
+  }
+  Predictor predictor(model_, trial_, {});
+  const validation::Linearisation found = predictor.linearise(window_, x0_, parameters);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const double step = 1e-3 * parameters[p].typical;
+    const double here = exact_->plant().value(parameters[p].id);
+    exact_->plant().set_value(parameters[p].id, here + step);
+    const Eigen::VectorXd up = exact_->residual(window_, x0_);
+    exact_->plant().set_value(parameters[p].id, here - step);
+    const Eigen::VectorXd down = exact_->residual(window_, x0_);
+    exact_->plant().set_value(parameters[p].id, here);
+    expect_column(found.Jp.col(static_cast<Eigen::Index>(p)), (down - up) / (2.0 * step),
+                  parameters[p].label);
+  }
+  const std::vector<std::string> names = exact_->plant().state_names();
+  for (Eigen::Index i = 0; i < x0_.size(); ++i) {
+    const double step = 1e-5 * (1.0 + std::abs(x0_[i]));
+    Eigen::VectorXd x = x0_;
+    x[i] = x0_[i] + step;
+    const Eigen::VectorXd up = exact_->residual(window_, x);
+    x[i] = x0_[i] - step;
+    const Eigen::VectorXd down = exact_->residual(window_, x);
+    expect_column(found.Jx.col(i), (down - up) / (2.0 * step), names[static_cast<std::size_t>(i)]);
+  }
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> kCases = {
+      {"bare", {}, {{"viscous", "mLA", "damping", 4e-3}, {"viscous", "mLS", "damping", 1e-2}}},
+      {"coulomb",
+       {"coulomb@mLA:level=0.05,smoothing_speed=0.05"},
+       {{"coulomb", "mLA", "level", 0.05}, {"viscous", "mLA", "damping", 4e-3}}},
+      {"torque_constant_error",
+       {"torque_constant_error@mLS:scale=0.95"},
+       {{"torque_constant_error", "mLS", "scale", 1.0}}},
+      {"added_mass", {"added_mass@shin:mass=0.1"}, {{"added_mass", "shin", "mass", 1.0}}},
+      {"com_shift",
+       {"com_shift@thigh:x=0.003,z=0.002"},
+       {{"com_shift", "thigh", "x", 0.1}, {"com_shift", "thigh", "z", 0.1}}},
+      {"encoder_scale", {"encoder_scale@thigh:scale=1.01"}, {{"encoder_scale", "thigh", "scale", 1.0}}},
+      {"actuator_lag",
+       {"actuator_lag@mLA:time_constant=0.005"},
+       {{"actuator_lag", "mLA", "time_constant", 0.005}}},
+      {"cable_stretch",
+       {"cable_stretch@leg_angle:stiffness=5,damping=0.01"},
+       {{"cable_stretch", "leg_angle", "stiffness", 5.0}, {"cable_stretch", "leg_angle", "damping", 0.01}}},
+      {"lugre",
+       {"lugre@mLA:level=0.05,rise=0.02,stribeck_speed=1,stiffness=5,bristle_damping=0.005,viscous=0.001"},
+       {{"lugre", "mLA", "level", 0.05},
+        {"lugre", "mLA", "rise", 0.02},
+        {"lugre", "mLA", "stribeck_speed", 1.0},
+        {"lugre", "mLA", "stiffness", 5.0},
+        {"lugre", "mLA", "bristle_damping", 0.005},
+        {"lugre", "mLA", "viscous", 0.001}}},
+      {"command_delay", {"command_delay@mLA:delay=0.0023"}, {{"command_delay", "mLA", "delay", 0.01}}},
+      {"rotor_inertia", {"rotor_inertia@mLA:inertia=3e-5"}, {{"rotor_inertia", "mLA", "inertia", 5e-4}}},
+      {"gravity_tilt", {"gravity_tilt@world:roll=0,pitch=0.02"}, {{"gravity_tilt", "world", "pitch", 0.1}}},
+  };
+  return kCases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, Tangent, testing::ValuesIn(cases()),
+                         [](const auto& chosen) { return chosen.param.label; });
+
+}  // namespace
+}  // namespace plumbline::limits
