@@ -19,6 +19,7 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks) : model_(model)
     n_tree_ += joint.type == JointType::fixed ? 0 : 1;
   }
   n_ = n_tree_ + motors();
+  torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
   reduce(locks);
   place_effects();
   place_sensors();

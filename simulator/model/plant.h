@@ -24,6 +24,15 @@ struct ParameterId {
   int parameter = 0;  ///< index in the law's declaration
 };
 
+/// Motion over a short time in which commands are held.
+struct SampleMotion {
+  const double* middle;         ///< mean of the states at both ends
+  const double* change;         ///< state at the end less state at the start
+  const double* command;        ///< of each motor, mean over the sample
+  const double* command_slope;  ///< d(command)/d(delay) of each motor, 1/s
+  double period;                ///< s
+};
+
 /// Energy of a state and where power goes.
 struct Energetics {
   double stored = 0.0;      ///< kinetic, gravity and springs, J
@@ -92,12 +101,12 @@ class Plant {
   double value(ParameterId id) const;
   void set_value(ParameterId id, double value);
 
-  /// Linearisation of rate() at (x, command): A = d(rate)/dx (states x states), B = d(rate)/d(parameters).
+  /// Linearisation of rate() over a sample: A = d(rate)/dx (states x states), B = d(rate)/d(parameters).
   /// Rigid-body parts of A and of structural parameters are refreshed only when `refresh` is true: they vary
-  /// slowly against the sample period. command_slope[m]: d(command)/d(delay) of motor m.
-  void tangent(const double* x, const double* command, const double* command_slope,
-               const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps, bool refresh,
-               Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+  /// slowly against the sample period. The effects' slopes are means over the sample, which a law that turns
+  /// within it (dry friction, a contact) needs.
+  void tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,
+               const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   /// d(outputs)/d(parameters) at x, sensors x parameters.
   void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
                       const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
@@ -118,8 +127,8 @@ class Plant {
   struct ForceSlot {
     const effects::ForceLaw* law = nullptr;
     int effect = 0;
-    int state = -1;  // index in x of its first hidden state
-    int motor = -1;  // motor whose torque is the load
+    int state = -1;      // index in x of its first hidden state
+    int motor = -1;      // motor whose torque is the load
     bool active = true;  // false at null values: costs nothing
     Line line;
   };
@@ -155,16 +164,22 @@ class Plant {
   void check_mass_matrix();
 
   effects::Motion motion(const ForceSlot& slot, const double* x) const;
+  effects::Motion half_change(const ForceSlot& slot, const double* change) const;
   const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
   void deliver_torques(const double* x, const double* command, double* xdot);
   void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
   void add_forces(const double* x, Eigen::VectorXd& Q, double* xdot);
   double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
   void rigid_tangent(const double* x, const double* command);
-  void effect_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
+  void parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
+                         ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
+  void force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
+                               const effects::Values& moved, double step, Eigen::Ref<Eigen::VectorXd> column);
+  void actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
+                                  const double* x, const Eigen::MatrixXd& A, effects::Values moved,
+                                  double step, Eigen::Ref<Eigen::VectorXd> column);
   void actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
-  void parameter_tangent(const double* x, const double* command, const double* command_slope, ParameterId id,
-                         double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
   void structure_tangent(const double* x, ParameterId id, double step, bool refresh,
                          Eigen::Ref<Eigen::VectorXd> column);
 
@@ -189,6 +204,7 @@ class Plant {
   Eigen::MatrixXd rigid_A_;
   struct Variant {
     ParameterId id;
+    double step = 0.0;
     Structure structure;
     Eigen::MatrixXd dM;
     Eigen::VectorXd dh;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
 constexpr double kVelocityStep = 1e-4;
+constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 
 }  // namespace
 
@@ -33,8 +34,19 @@ void Plant::rigid_tangent(const double* x, const double* command) {
   }
 }
 
-// Adds the effects' own slopes: scalar differences of each law, no dynamics.
-void Plant::effect_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+// Half of what a place's position and velocity change by over a sample.
+effects::Motion Plant::half_change(const ForceSlot& slot, const double* change) const {
+  effects::Motion half;
+  for (int i = 0; change != nullptr && i < nz_; ++i) {
+    half.position += 0.5 * slot.line.reduced[i] * change[i];
+    half.velocity += 0.5 * slot.line.reduced[i] * change[nz_ + i];
+  }
+  return half;
+}
+
+// Adds the effects' own slopes: scalar differences of each law, no dynamics. A difference as wide as the
+// change over a sample is the mean slope on the way, also of a law that jumps there.
+void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
   for (const ForceSlot& slot : forces_) {
     if (!slot.active) {
       continue;
@@ -61,8 +73,9 @@ void Plant::effect_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
             ((up - down) / width).head(states) * slot.line.reduced.transpose();
       }
     };
-    const double dq = 1e-6 * (1.0 + std::abs(at.position));
-    const double dv = 1e-6 * (1.0 + std::abs(at.velocity));
+    const effects::Motion half = half_change(slot, change);
+    const double dq = std::max(1e-6 * (1.0 + std::abs(at.position)), std::abs(half.position));
+    const double dv = std::max(1e-6 * (1.0 + std::abs(at.velocity)), std::abs(half.velocity));
     add(A.leftCols(nz_), {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load},
         2.0 * dq);
     add(A.middleCols(nz_, nz_), {at.position, at.velocity + dv, at.load},
@@ -115,7 +128,7 @@ void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Ei
   factor_.compute(M_);
   A.setZero();
   A.block(0, nz_, nz_, nz_).setIdentity();
-  effect_tangent(x, A);
+  effect_tangent(x, nullptr, A);
   actuator_tangent(x, command, A);
 }
 
@@ -128,6 +141,7 @@ void Plant::structure_tangent(const double* x, ParameterId id, double step, bool
     const double here = value(id);
     Variant variant;
     variant.id = id;
+    variant.step = step;
     double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
     stored = here + step;
     variant.structure = make_structure();
@@ -140,82 +154,111 @@ void Plant::structure_tangent(const double* x, ParameterId id, double step, bool
     Eigen::MatrixXd M;
     Eigen::VectorXd h;
     evaluate_rigid(x, found->structure, M, h);
-    found->dM = (M - M_) / step;
-    found->dh = (h - h_) / step;
+    found->dM = (M - M_) / found->step;
+    found->dh = (h - h_) / found->step;
   }
   column.segment(nz_, nz_) = -factor_.solve(found->dM * acceleration_ + found->dh);
 }
 
-void Plant::parameter_tangent(const double* x, const double* command, const double* command_slope,
+// A force that turns with the velocity's sign within the sample is averaged over it.
+void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
+                                    const effects::Values& moved, double step,
+                                    Eigen::Ref<Eigen::VectorXd> column) {
+  const double* p0 = values(slot.effect);
+  const double* s = slot.state >= 0 ? x + slot.state : nullptr;
+  const int states = slot.state >= 0 ? slot.law->state_count() : 0;
+  const effects::Motion mean = motion(slot, x);
+  const effects::Motion half = half_change(slot, sample.change);
+  const int parts = std::abs(half.velocity) > std::abs(mean.velocity) ? kPartsOfTurn : 1;
+  Eigen::VectorXd up(states);
+  Eigen::VectorXd now(states);
+  double force = 0.0;
+  for (int i = 0; i < parts; ++i) {
+    const double share = (2.0 * i + 1.0) / parts - 1.0;
+    const effects::Motion at{mean.position + share * half.position, mean.velocity + share * half.velocity,
+                             mean.load};
+    const double before = slot.active ? slot.law->force(at, s, p0) : 0.0;
+    force += (slot.law->force(at, s, moved.data()) - before) / (step * parts);
+    if (states > 0) {
+      slot.law->state_rate(at, s, moved.data(), up.data());
+      slot.law->state_rate(at, s, p0, now.data());
+      column.segment(slot.state, states) += (up - now) / (step * parts);
+    }
+  }
+  column.segment(nz_, nz_) = factor_.solve(slot.line.reduced) * force;
+}
+
+void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
+                                       const double* x, const Eigen::MatrixXd& A, effects::Values moved,
+                                       double step, Eigen::Ref<Eigen::VectorXd> column) {
+  const double gain = torque_gain(motor);
+  const double here = gain * sample.command[motor];
+  Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
+  Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
+  const double before = actuator_chain(motor, x, here, now.data());
+  const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
+  const double delayed = here + gain * sample.command_slope[motor] * delay_change;
+  std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
+  const double after = actuator_chain(motor, x, delayed, up.data());
+  std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
+  column = (up - now) / step;
+  column.segment(nz_, nz_) +=
+      factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * ((after - before) / step);
+  if (delay_change != 0.0) {
+    // The command moves where it jumps, not in the middle of the sample.
+    const double jump = std::fmod(delay(motor), sample.period);
+    column += (0.5 * sample.period - jump) * (A * column).eval();
+  }
+}
+
+void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
                               ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column) {
   column.setZero();
-  effects::Values p = values_[static_cast<std::size_t>(id.effect)];
-  const double* p0 = values(id.effect);
-  p[static_cast<std::size_t>(id.parameter)] += step;
+  effects::Values moved = values_[static_cast<std::size_t>(id.effect)];
+  moved[static_cast<std::size_t>(id.parameter)] += step;
   for (const ForceSlot& slot : forces_) {
-    if (slot.effect != id.effect || (slot.law->state_count() > 0 && slot.state < 0)) {
-      continue;
+    if (slot.effect == id.effect && (slot.law->state_count() == 0 || slot.state >= 0)) {
+      force_parameter_tangent(slot, sample, x, moved, step, column);
+      return;
     }
-    const effects::Motion at = motion(slot, x);
-    const double* s = slot.state >= 0 ? x + slot.state : nullptr;
-    const double before = slot.active ? slot.law->force(at, s, p0) : 0.0;
-    column.segment(nz_, nz_) =
-        factor_.solve(slot.line.reduced) * ((slot.law->force(at, s, p.data()) - before) / step);
-    if (slot.state >= 0) {
-      const int states = slot.law->state_count();
-      Eigen::VectorXd up(states);
-      Eigen::VectorXd now(states);
-      slot.law->state_rate(at, s, p.data(), up.data());
-      slot.law->state_rate(at, s, p0, now.data());
-      column.segment(slot.state, states) = (up - now) / step;
-    }
-    return;
   }
   for (int m = 0; m < motors(); ++m) {
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
-      if (slot.effect != id.effect) {
-        continue;
+      if (slot.effect == id.effect) {
+        actuator_parameter_tangent(m, slot, sample, x, A, moved, step, column);
+        return;
       }
-      const double here = torque_gain(m) * command[m];
-      Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
-      Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
-      const double before = actuator_chain(m, x, here, now.data());
-      const double delay_change = slot.law->delay(p.data()) - slot.law->delay(p0);
-      const double moved = here + torque_gain(m) * command_slope[m] * delay_change;
-      std::swap(values_[static_cast<std::size_t>(id.effect)], p);
-      const double after = actuator_chain(m, x, moved, up.data());
-      std::swap(values_[static_cast<std::size_t>(id.effect)], p);
-      column = (up - now) / step;
-      column.segment(nz_, nz_) +=
-          factor_.solve(motor_lines_[static_cast<std::size_t>(m)].reduced) * ((after - before) / step);
-      return;
     }
   }
   for (const StructureSlot& slot : structures_) {
     if (slot.effect == id.effect) {
-      structure_tangent(x, id, step, refresh, column);
+      structure_tangent(sample.middle, id, step, refresh, column);
       return;
     }
   }
 }
 
-void Plant::tangent(const double* x, const double* command, const double* command_slope,
-                    const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps, bool refresh,
-                    Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,
+                    const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+  const double* x = sample.middle;
   if (refresh || rigid_A_.cols() != 2 * nz_) {
-    rigid_tangent(x, command);
+    rigid_tangent(x, sample.command);
   }
   Eigen::VectorXd xdot(nx_);
-  rate(x, command, xdot.data());  // leaves M, h, torques and acceleration at x
+  rate(x, sample.command, xdot.data());  // leaves M, h, torques and acceleration at x
   A.setZero(nx_, nx_);
   A.block(0, nz_, nz_, nz_).setIdentity();
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
-  effect_tangent(x, A);
-  actuator_tangent(x, command, A);
+  effect_tangent(x, sample.change, A);
+  actuator_tangent(x, sample.command, A);
+  // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change.
+  const Eigen::Map<const Eigen::VectorXd> change(sample.change, nx_);
+  const Eigen::VectorXd mean =
+      Eigen::Map<const Eigen::VectorXd>(x, nx_) - sample.period / 12.0 * (A * change);
   B.resize(nx_, static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    parameter_tangent(x, command, command_slope, parameters[k], steps[column], refresh, B.col(column));
+    parameter_tangent(sample, mean.data(), A, parameters[k], steps[column], refresh, B.col(column));
   }
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr Eigen::Index kFewestSamples = 8;
-constexpr double kEndPeriods = 10.0;  // the filter has forgotten its start after so many periods of the cutoff
+constexpr double kEndPeriods =
+    10.0;  // the filter has forgotten its start after so many periods of the cutoff
 
 /// y = b0 x + s1, s1 = b1 x - a1 y + s2, s2 = b2 x - a2 y (transposed direct form).
 struct Section {

@@ -25,8 +25,12 @@ const std::vector<Removal>& leg_bench_removals() {
 void add_hidden(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
   for (const Row& row : rows) {
     for (const Strength strength : {Strength::weak, Strength::strong}) {
-      cases.push_back({robot + "/" + row.effect + "@" + row.at + "/" + to_string(strength), robot, Kind::hidden,
-                       strength, row, {}});
+      cases.push_back({robot + "/" + row.effect + "@" + row.at + "/" + to_string(strength),
+                       robot,
+                       Kind::hidden,
+                       strength,
+                       row,
+                       {}});
     }
   }
 }
@@ -45,8 +49,8 @@ void add_removed(const std::string& robot, const std::vector<Row>& rows, std::ve
     if (row == rows.end()) {
       throw std::logic_error("no row for " + removal.effect + "@" + removal.at);
     }
-    cases.push_back({robot + "/removed/" + row->effect + "@" + row->at, robot, Kind::removed, Strength::strong, *row,
-                     removal.laws});
+    cases.push_back({robot + "/removed/" + row->effect + "@" + row->at, robot, Kind::removed,
+                     Strength::strong, *row, removal.laws});
   }
 }
 

@@ -1,10 +1,12 @@
-// Checks of the battery's table, without running any case: every case reads, its draws stay in bounds and differ, and no
-// effect that can sit on the bench is forgotten. Prints what is wrong; exit status 1 then.
+// Checks of the battery's table, without running any case: every case reads, its draws stay in bounds and
+// differ, and no effect that can sit on the bench is forgotten. Prints what is wrong; exit status 1 then.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <map>
+#include <memory>
 #include <set>
 
 #include "simulator/model/robot_file.h"
@@ -44,16 +46,18 @@ model::EffectUse use_of(const Case& one, const model::Model& model, std::uint64_
 void check_hidden(const Case& one, const model::Model& model, Checks& checks) {
   const effects::Values a = use_of(one, model, 1).numbers();
   const effects::Values b = use_of(one, model, 2).numbers();
-  const effects::Law& law = *effects::Catalogue::all().find(one.row.effect);
-  checks.expect(!law.is_null(a.data()), one.name + " hides nothing");
+  const std::shared_ptr<const effects::Law> law = effects::Catalogue::all().find(one.row.effect);
+  checks.expect(!law->is_null(a.data()), one.name + " hides nothing");
   checks.expect(a != b, one.name + " draws the same values from different seeds");
   checks.expect(a == use_of(one, model, 1).numbers(), one.name + " draws different values from one seed");
   for (std::size_t p = 0; p < a.size(); ++p) {
-    if (law.declaration().parameters[p].structural) {
-      checks.expect(a[p] == b[p], one.name + " draws the structural " + law.declaration().parameters[p].name);
+    if (law->declaration().parameters[p].structural) {
+      checks.expect(a[p] == b[p],
+                    one.name + " draws the structural " + law->declaration().parameters[p].name);
     } else if (std::isfinite(a[p])) {
       // Both lie within 20 % of the nominal value, which may have a base that is not varied.
-      const double ratio = std::max(std::abs(a[p]), std::abs(b[p])) / std::min(std::abs(a[p]), std::abs(b[p]));
+      const double ratio =
+          std::max(std::abs(a[p]), std::abs(b[p])) / std::min(std::abs(a[p]), std::abs(b[p]));
       checks.expect(a[p] == b[p] || ratio < 1.5001, one.name + " draws too widely");
     }
   }
@@ -68,15 +72,22 @@ void check_removed(const Case& one, Checks& checks) {
   }
 }
 
-void check_cases(Checks& checks) {
+/// Models by the robot's name, each read once.
+std::map<std::string, model::Model> read_models() {
+  std::map<std::string, model::Model> models;
+  for (const Robot& robot : robots()) {
+    models[robot.name] = model::read_model(in_root(robot.model), effects::Catalogue::all());
+  }
+  return models;
+}
+
+void check_cases(const std::map<std::string, model::Model>& models, Checks& checks) {
   std::set<std::string> names;
   for (const Case& one : all_cases()) {
     try {
       checks.expect(names.insert(one.name).second, one.name + " is there twice");
-      const model::Model model =
-          model::read_model(in_root(robot_of(one).model), effects::Catalogue::all());
       if (one.kind != Kind::none) {
-        check_hidden(one, model, checks);
+        check_hidden(one, models.at(one.robot), checks);
       }
       if (one.kind == Kind::removed) {
         check_removed(one, checks);
@@ -87,22 +98,20 @@ void check_cases(Checks& checks) {
   }
 }
 
-void check_experiments(Checks& checks) {
+void check_experiments(const std::map<std::string, model::Model>& models, Checks& checks) {
   for (const Robot& robot : robots()) {
-    const model::Model model = model::read_model(in_root(robot.model), effects::Catalogue::all());
     bool train = false;
     bool held_out = false;
     for (const std::string& file : robot.experiments) {
-      const validation::Role role = validation::read_experiment(in_root(file), model).role;
+      const validation::Role role = validation::read_experiment(in_root(file), models.at(robot.name)).role;
       (role == validation::Role::train ? train : held_out) = true;
     }
     checks.expect(train && held_out, robot.name + " lacks train or held-out experiments");
   }
 }
 
-void check_complete(Checks& checks) {
+void check_complete(const model::Model& model, Checks& checks) {
   const effects::Catalogue all = effects::Catalogue::all();
-  const model::Model model = model::read_model(in_root("robots/mabel/leg_bench.yaml"), all);
   const std::vector<Row>& rows = leg_bench_rows();
   const auto rows_of = [&](const std::string& effect, const std::string& at) {
     return std::count_if(rows.begin(), rows.end(),
@@ -125,9 +134,10 @@ void check_complete(Checks& checks) {
 int main() {
   try {
     plumbline::battery::Checks checks;
-    plumbline::battery::check_experiments(checks);
-    plumbline::battery::check_cases(checks);
-    plumbline::battery::check_complete(checks);
+    const auto models = plumbline::battery::read_models();
+    plumbline::battery::check_experiments(models, checks);
+    plumbline::battery::check_cases(models, checks);
+    plumbline::battery::check_complete(models.at("leg_bench"), checks);
     return checks.finish();
   } catch (const std::exception& error) {
     fmt::print(stderr, "FAILED: {}\n", error.what());

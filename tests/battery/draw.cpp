@@ -79,7 +79,7 @@ double Draw::factor() {
 std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, Draw& draw) {
   const auto law = catalogue.find(one.row.effect);
   if (!law) {
-    throw std::invalid_argument(one.name + ": unknown effect");
+    throw std::invalid_argument("unknown effect '" + one.row.effect + "'");
   }
   std::string text = one.row.effect + "@" + one.row.at;
   char separator = ':';
@@ -89,7 +89,7 @@ std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, D
     const std::string parameter = item.substr(0, equal);
     const int index = law->parameter_index(parameter);
     if (equal == std::string::npos || index < 0) {
-      throw std::invalid_argument(one.name + ": unknown parameter '" + parameter + "'");
+      throw std::invalid_argument("unknown parameter '" + parameter + "'");
     }
     const Nominal nominal = read_value(item.substr(equal + 1), one.strength);
     const bool structural = law->declaration().parameters[static_cast<std::size_t>(index)].structural;

@@ -54,7 +54,8 @@ std::vector<Case> subset(const std::vector<Case>& cases, std::size_t count, std:
 }
 
 void show_bare(const Result& result) {
-  fmt::print("{:<44} {:>8.2f}  {}\n", result.one.name, result.bare, result.error.empty() ? result.with : result.error);
+  fmt::print("{:<44} {:>8.2f}  {}\n", result.one.name, result.bare,
+             result.error.empty() ? result.with : result.error);
 }
 
 int run(const Inputs& inputs) {
@@ -98,9 +99,10 @@ int run(const Inputs& inputs) {
 
 int main(int argc, char** argv) {
   plumbline::battery::Inputs inputs;
-  CLI::App app{"Hides effects in synthetic measurements and looks whether the diagnosis names them.\n"
-               "Exit status: 0 all targets met, 1 a target missed, 2 bad input.",
-               "battery"};
+  CLI::App app{
+      "Hides effects in synthetic measurements and looks whether the diagnosis names them.\n"
+      "Exit status: 0 all targets met, 1 a target missed, 2 bad input.",
+      "battery"};
   app.add_option("--seed", inputs.run.seed, "seed of the drawn parameters")->capture_default_str();
   app.add_option("--only", inputs.only, "only cases whose name contains SUBSTRING; may be repeated")
       ->type_name("SUBSTRING")

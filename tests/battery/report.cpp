@@ -14,20 +14,12 @@ constexpr const char* kLayout = "{:<44} {:>8} {:>7} {:<15} {:<28} {:>3} {:<6} {:
 
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
-/// In words what the columns "set" and "right" say for this kind of case.
 std::string outcome(const Result& result) {
   if (!result.error.empty()) {
     return "ERROR";
   }
-  switch (result.one.kind) {
-    case Kind::hidden:
-      return result.right ? "right" : (result.visible ? "WRONG" : "unseen");
-    case Kind::none:
-      return result.first.empty() ? "right" : "WRONG";
-    case Kind::removed:
-      break;
-  }
-  return result.first.empty() ? "right" : "WRONG";
+  const bool unseen = result.one.kind == Kind::hidden && !result.visible;
+  return result.right ? "right" : (unseen ? "unseen" : "WRONG");
 }
 
 void add_hidden(const Result& result, const Targets& targets, Summary& summary) {
@@ -131,27 +123,28 @@ bool targets_met(const Summary& summary, const Targets& targets) {
 }
 
 std::string table_head() {
-  return fmt::format(kLayout, "case", "bare", "", "verdict", "first named", "set", "", "before", "after", "s");
+  return fmt::format(kLayout, "case", "bare", "", "verdict", "first named", "set", "", "before", "after",
+                     "s");
 }
 
 std::string table_line(const Result& r) {
-  const std::string line =
-      fmt::format(kLayout, r.one.name, fmt::format("{:.2f}", r.bare), r.visible ? "visible" : "",
-                  or_dash(r.verdict), or_dash(r.first), r.set_size, outcome(r), fmt::format("{:.3f}", r.before),
-                  fmt::format("{:.3f}", r.after), fmt::format("{:.1f}", r.seconds));
+  const std::string line = fmt::format(kLayout, r.one.name, fmt::format("{:.2f}", r.bare),
+                                       r.visible ? "visible" : "", or_dash(r.verdict), or_dash(r.first),
+                                       r.set_size, outcome(r), fmt::format("{:.3f}", r.before),
+                                       fmt::format("{:.3f}", r.after), fmt::format("{:.1f}", r.seconds));
   return r.error.empty() ? line : line + "  " + r.error;
 }
 
 std::string summary_text(const Summary& s, const Targets& t) {
-  std::string text = fmt::format("{} hidden effects, {} visible (bare held-out error at least {} floors)\n", s.hidden,
-                                 s.visible, kVisible);
-  text += fmt::format("  right            {:>4} of {} ({:.1f} %), {} named first; target {:.0f} %: {}\n", s.right,
-                      s.visible, 100.0 * right_share(s), s.first, 100.0 * t.right_share,
+  std::string text = fmt::format("{} hidden effects, {} visible (bare held-out error at least {} floors)\n",
+                                 s.hidden, s.visible, kVisible);
+  text += fmt::format("  right            {:>4} of {} ({:.1f} %), {} named first; target {:.0f} %: {}\n",
+                      s.right, s.visible, 100.0 * right_share(s), s.first, 100.0 * t.right_share,
                       mark(right_share(s) >= t.right_share));
-  text += fmt::format("  held-out after   worst {:.3f} floors, {} of the right above {}; target 0: {}\n", s.worst_after,
-                      s.above_floor, t.floor, mark(s.above_floor == 0));
-  text += fmt::format("nothing hidden     {:>4} of {} cases name an effect; target at most {}: {}\n", s.named_on_none,
-                      s.none, t.named_on_none, mark(s.named_on_none <= t.named_on_none));
+  text += fmt::format("  held-out after   worst {:.3f} floors, {} of the right above {}; target 0: {}\n",
+                      s.worst_after, s.above_floor, t.floor, mark(s.above_floor == 0));
+  text += fmt::format("nothing hidden     {:>4} of {} cases name an effect; target at most {}: {}\n",
+                      s.named_on_none, s.none, t.named_on_none, mark(s.named_on_none <= t.named_on_none));
   text += fmt::format("law removed        {:>4} of {} confident wrong names; target at most {}: {}\n",
                       s.confident_wrong, s.removed, t.confident_wrong,
                       mark(s.confident_wrong <= t.confident_wrong));
@@ -191,13 +184,15 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
 
 void write_csv(const std::string& file, const std::vector<Result>& results) {
   std::ofstream out = opened(file);
-  out << "case,kind,effect,at,strength,with,bare_held_out,visible,verdict,first_named,others_named,set_size,in_set,"
+  out << "case,kind,effect,at,strength,with,bare_held_out,visible,verdict,first_named,others_named,set_size,"
+         "in_set,"
          "right,held_out_before,held_out_after,seconds,error\n";
   for (const Result& r : results) {
-    out << fmt::format("{},{},{},{},{},{},{:.6g},{:d},{},{},{},{},{:d},{:d},{:.6g},{:.6g},{:.3f},{}\n", r.one.name,
-                       to_string(r.one.kind), r.one.row.effect, r.one.row.at, to_string(r.one.strength),
-                       quoted(r.with), r.bare, r.visible, r.verdict, r.first, r.others, r.set_size, r.in_set,
-                       r.right, r.before, r.after, r.seconds, quoted(r.error));
+    out << fmt::format("{},{},{},{},{},{},{:.6g},{:d},{},{},{},{},{:d},{:d},{:.6g},{:.6g},{:.3f},{}\n",
+                       r.one.name, to_string(r.one.kind), r.one.row.effect, r.one.row.at,
+                       to_string(r.one.strength), quoted(r.with), r.bare, r.visible, r.verdict, r.first,
+                       r.others, r.set_size, r.in_set, r.right, r.before, r.after, r.seconds,
+                       quoted(r.error));
   }
   close(out, file);
 }

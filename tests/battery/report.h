@@ -12,7 +12,7 @@ struct Targets {
   double right_share = 0.90;  ///< least share of visible hidden effects that must be right
   double floor = 1.15;        ///< most that the held-out error may be after a right answer, in floors
   int named_on_none = 0;      ///< most effects named where nothing is hidden
-  int confident_wrong = 1;    ///< most wrong names with verdict "missing" where the law is not in the catalogue
+  int confident_wrong = 1;  ///< most wrong names with verdict "missing" where the law is not in the catalogue
 };
 
 struct Summary {

@@ -25,13 +25,13 @@ void vary_amplitudes(validation::Experiment& experiment, Draw& draw) {
 /// The case's trials in memory. Without a hidden effect the excitation differs from seed to seed instead of
 /// the effect's parameters, because sensors without noise would always give the same data.
 std::vector<validation::Trial> trials_of(const Case& one, const model::Model& bare, const std::string& with,
-                                         Draw& draw, std::uint64_t seed) {
+                                         Draw& draw, const RunOptions& run) {
   model::Model truth = bare;
   if (!with.empty()) {
     truth.effects.push_back(validation::parse_effect(with, bare, effects::Catalogue::all()));
   }
   validation::TwinOptions options;
-  options.seed = seed;
+  options.seed = run.seed;
   options.relative_tolerance = kTwinTolerance;
   std::vector<validation::Trial> trials;
   for (const std::string& file : robot_of(one).experiments) {
@@ -40,8 +40,10 @@ std::vector<validation::Trial> trials_of(const Case& one, const model::Model& ba
     if (one.kind == Kind::none) {
       vary_amplitudes(experiment, draw);
     }
-    trials.push_back(validation::twin(truth, experiment, options));
-    trials.back().name = trials.back().file = file;
+    if (!run.bare_only || experiment.role == validation::Role::held_out) {
+      trials.push_back(validation::twin(truth, experiment, options));
+      trials.back().name = trials.back().file = file;
+    }
     ++options.seed;
   }
   return trials;
@@ -55,6 +57,7 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   result.after = diagnosis.final_stage.estimate.scores.held_out;
   result.before = result.after;
+  result.right = result.one.kind != Kind::hidden && diagnosis.accepted.empty();
   if (diagnosis.accepted.empty()) {
     return;
   }
@@ -71,7 +74,8 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   for (const validation::Named& rival : first.rivals) {
     result.in_set = result.in_set || names(truth, rival.effect, rival.at);
   }
-  result.right = named_first || (result.in_set && result.set_size <= 1 + kMostRivals);
+  result.right = result.one.kind == Kind::hidden &&
+                 (named_first || (result.in_set && result.set_size <= 1 + kMostRivals));
 }
 
 effects::Catalogue catalogue_of(const Case& one) {
@@ -90,7 +94,7 @@ void run(const RunOptions& options, Result& result) {
   if (one.kind != Kind::none) {
     result.with = drawn_effect(one, all, draw);
   }
-  const validation::Data data(trials_of(one, bare, result.with, draw, options.seed), {});
+  const validation::Data data(trials_of(one, bare, result.with, draw, options), {});
   result.bare = validation::compare(bare, data).scores.held_out;
   result.visible = result.bare >= kVisible;
   if (!options.bare_only) {

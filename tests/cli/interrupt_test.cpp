@@ -14,8 +14,7 @@ class Interrupt : public RobotFolder {
   /// long/steps: so long that nothing can be done with it in a moment.
   void make_long_trial() const {
     replace("experiments/steps.yaml", "duration: {value: 2, unit: s}", "duration: {value: 40, unit: s}");
-    succeed({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008", "--experiment",
-             "experiments/steps.yaml", "--out", "long"});
+    succeed({"twin", "robot/model.yaml", "--experiment", "experiments/steps.yaml", "--out", "long"});
   }
 
   /// Starts the command, interrupts it after so many seconds and returns how it ended; it must end soon.

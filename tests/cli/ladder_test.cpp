@@ -24,6 +24,8 @@ TEST_F(Ladder, BaseFirstAndTheErrorFalls) {
   const Outcome outcome = succeed(
       {"ladder", "trials/chirp", "trials/swing", "--model", "robot/overlay.yaml", "--json", "ladder.json"});
   EXPECT_THAT(outcome.out, HasSubstr("overlay.yaml + coulomb@drive"));
+  EXPECT_THAT(outcome.out, HasSubstr("[2] swing (held-out)"));
+  EXPECT_THAT(outcome.out, HasSubstr("[2] inverse"));
   EXPECT_THAT(outcome.out, HasSubstr("no closed loop, no controller is known"));
   const nlohmann::json json = read_json("ladder.json");
   EXPECT_THAT(keys(json), UnorderedElementsAre("models", "published"));
@@ -59,7 +61,7 @@ TEST_F(Ladder, WrongCommandUnitIsRefused) {
     const Outcome outcome = plumbline({command, "trials/chirp"});
     EXPECT_EQ(outcome.status, 2) << command;
     EXPECT_THAT(outcome.err, HasSubstr("commands.drive.column")) << command;
-    EXPECT_THAT(outcome.err, HasSubstr("0.001 times the force of column"));
+    EXPECT_THAT(outcome.err, HasSubstr("times the force of column \"u_drive\" in A")) << command;
   }
 }
 

@@ -30,7 +30,8 @@ double gain_of(double frequency, double cutoff) {
   return out.dot(in) / in.squaredNorm();
 }
 
-// |H|^2 of a digital Butterworth filter (Oppenheim and Schafer, chapter 7, bilinear transformation): 1 / (1 + (tan(w/2)/tan(wc/2))^(2 order)); two runs square |H|.
+// |H|^2 of a digital Butterworth filter (Oppenheim and Schafer, chapter 7, bilinear transformation): 1 / (1 +
+// (tan(w/2)/tan(wc/2))^(2 order)); two runs square |H|.
 TEST(LowPass, GainOfAButterworthFilterWithoutPhase) {
   EXPECT_NEAR(gain_of(40.0, 40.0), 0.5, 1e-6);
   for (const double frequency : {5.0, 20.0, 37.0, 55.0, 90.0, 210.0}) {

@@ -5,6 +5,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/diagnose/diagnose.h"
+#include "validation/diagnose/unexplained.h"
 
 namespace plumbline::cli {
 namespace {
@@ -62,9 +63,40 @@ nlohmann::json to_json(const Diagnosis& diagnosis) {
     json["leads"].push_back(to_json(row));
   }
   for (const validation::Rung& rung : diagnosis.ladder) {
-    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train}, {"held_out", rung.held_out}});
+    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});
   }
   return json;
+}
+
+using validation::UnexplainedForce;
+
+nlohmann::json to_json(const UnexplainedForce& force) {
+  nlohmann::json json{{"trial", force.trial}, {"motor", force.motor}, {"unit", force.unit},
+                      {"rms", force.rms},     {"relative", force.relative}, {"words", force.words},
+                      {"dependences", nlohmann::json::array()}};
+  for (const validation::Dependence& d : force.dependences) {
+    json["dependences"].push_back({{"variable", d.variable}, {"unit", d.unit}, {"share", d.share},
+                                   {"center", d.center}, {"mean", d.mean}});
+  }
+  return json;
+}
+
+/// The force that the final model does not explain, where the inverse model can tell.
+void print_unexplained(const std::vector<UnexplainedForce>& forces) {
+  if (forces.empty()) {
+    return;
+  }
+  fmt::print("\nUnexplained force at the motors (recorded minus needed, below 40 Hz):\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const UnexplainedForce& f : forces) {
+    std::string shares;
+    for (const validation::Dependence& d : f.dependences) {
+      shares += fmt::format("{} {:.0f} %  ", d.variable, 100.0 * d.share);
+    }
+    rows.push_back({f.trial, f.motor, fmt::format("{:.3g} {}", f.rms, f.unit), fmt::format("{:.1f} %", 100.0 * f.relative),
+                    f.words, shares});
+  }
+  print_table({"trial", "motor", "rms", "of the force", "it", "share of its variance that follows"}, rows);
 }
 
 void print_verdict(const Diagnosis& diagnosis) {
@@ -76,11 +108,11 @@ void print_verdict(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::nothing_missing:
       fmt::print("Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
-                 "alone would leave.\n", last.held_out);
+                 "alone would leave.\n", last.held_out());
       return;
     case Verdict::unexplained:
       fmt::print("Unexplained: the model's held-out error is {:.2f} times the floor, and no effect of the "
-                 "catalogue explains it.\n", last.held_out);
+                 "catalogue explains it.\n", last.held_out());
       return;
     case Verdict::missing:
       break;
@@ -104,7 +136,7 @@ void print_verdict(const Diagnosis& diagnosis) {
   }
   fmt::print("In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
              "above the floor stays unexplained.\n",
-             first.held_out, last.held_out, 100.0 * diagnosis.unexplained_share);
+             first.held_out(), last.held_out(), 100.0 * diagnosis.unexplained_share);
 }
 
 void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
@@ -122,7 +154,7 @@ void print(const Diagnosis& diagnosis) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const validation::Rung& rung : diagnosis.ladder) {
-    rows.push_back({rung.name, fmt::format("{:.3f}", rung.train), fmt::format("{:.3f}", rung.held_out)});
+    rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out())});
   }
   print_table({"model", "train", "held-out"}, rows);
   if (!diagnosis.ranking.empty()) {
@@ -138,7 +170,8 @@ void print(const Diagnosis& diagnosis) {
 void save_model(const Diagnosis& diagnosis, const std::string& base, const std::string& file) {
   std::vector<model::AddedEffect> added;
   std::vector<model::NewValue> values;
-  const auto& stage = diagnosis.final_stage;
+  validation::Stage stage = diagnosis.final_stage;
+  stage.model = validation::with_values(stage.model, stage.parameters, stage.estimate.theta);
   const std::size_t own = stage.model.effects.size() - diagnosis.accepted.size();
   for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
     const model::EffectUse& use = stage.model.effects[e];
@@ -183,11 +216,23 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       diagnosis =
           validation::diagnose(loaded.model, catalogue, *loaded.data, options->diagnose, progress.callback());
     }
-    write_json(to_json(diagnosis), options->inputs.json);
+    std::vector<UnexplainedForce> left;
+    if (!diagnosis.interrupted && diagnosis.unexplained_share > 0.02) {
+      const auto& stage = diagnosis.final_stage;
+      left = validation::unexplained_forces(
+          validation::with_values(stage.model, stage.parameters, stage.estimate.theta), *loaded.data);
+    }
+    nlohmann::json json = to_json(diagnosis);
+    json["unexplained_forces"] = nlohmann::json::array();
+    for (const UnexplainedForce& force : left) {
+      json["unexplained_forces"].push_back(to_json(force));
+    }
+    write_json(json, options->inputs.json);
     if (!options->save.empty()) {
       save_model(diagnosis, loaded.model.file, options->save);
     }
     print(diagnosis);
+    print_unexplained(left);
   });
 }
 

@@ -288,6 +288,10 @@ void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& pu
     fmt::print(
         "position, force: the whole trial simulated with its controller; inverse: force that the measured "
         "motion needs; both in % of what was measured.\n");
+    for (std::size_t t = 0; t < rungs.front().trials.size(); ++t) {
+      const TrialErrors& trial = rungs.front().trials[t];
+      fmt::print("[{}] {} ({})\n", t + 1, trial.trial, to_string(trial.role));
+    }
   }
   fmt::print("\n");
   print_table(head, rows);

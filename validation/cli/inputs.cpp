@@ -12,7 +12,9 @@ void add_json_option(CLI::App& command, std::string& json) {
 }
 
 void add_data_inputs(CLI::App& command, Inputs& inputs) {
-  command.add_option("trial", inputs.trials, "trial folders (or their trial.yaml)")->required()->type_name("TRIAL");
+  command.add_option("trial", inputs.trials, "trial folders (or their trial.yaml)")
+      ->required()
+      ->type_name("TRIAL");
   command.add_option("--data", inputs.data_folder, "folder with the trials' data files")->type_name("DIR");
   command.add_option("--window", inputs.window, "length of the prediction windows, s")
       ->capture_default_str()
@@ -22,7 +24,8 @@ void add_data_inputs(CLI::App& command, Inputs& inputs) {
 
 void add_trial_inputs(CLI::App& command, Inputs& inputs) {
   add_data_inputs(command, inputs);
-  command.add_option("--model", inputs.model, "model file in place of the one the trials name")->type_name("FILE");
+  command.add_option("--model", inputs.model, "model file in place of the one the trials name")
+      ->type_name("FILE");
 }
 
 effects::Catalogue catalogue_for(const Inputs& inputs) {

@@ -14,11 +14,11 @@ namespace plumbline::cli {
 
 struct Inputs {
   std::vector<std::string> trials;
-  std::string model;                  ///< empty: the model that the first trial names
+  std::string model;  ///< empty: the model that the first trial names
   std::string data_folder;
   std::string json;
-  double window = 0.5;                ///< s
-  std::vector<std::string> without;   ///< effects left out of the catalogue
+  double window = 0.5;               ///< s
+  std::vector<std::string> without;  ///< effects left out of the catalogue
 };
 
 /// TRIAL..., --data, --window, --json.
@@ -34,7 +34,8 @@ struct Loaded {
   std::unique_ptr<validation::Data> data;
 };
 
-/// Reads the model and the trials, checks roles and the commands' units, and cuts windows; the stop flag is wired to Ctrl-C.
+/// Reads the model and the trials, checks roles and whether the commands' units can be right, and cuts
+/// windows; the stop flag is wired to Ctrl-C.
 Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::cli

@@ -41,21 +41,36 @@ std::vector<RankRow> rank(const std::vector<Candidate>& candidates, const std::v
   return rows;
 }
 
-/// Refits that these data cannot tell from the best: they win in a fair share of resamples, or differ from
-/// it by less than a hundredth of what it explains.
-std::vector<std::size_t> tied_with_best(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
-                                        const DiagnoseOptions& options) {
-  std::vector<std::size_t> tied;
-  const Scores& before = stage.estimate.scores;
-  const double start = before.train * before.train + before.held_out * before.held_out;
+/// Error of a refit that counts for choosing: train and held-out together.
+double together(const Refit& refit) { return std::sqrt(refit.square()); }
+
+/// Refits that predict as well as the best to within what counts as material.
+std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
+  std::vector<std::size_t> near;
   for (std::size_t i = 0; i < refits.size(); ++i) {
-    const double explained = start - refits.front().square();
-    const bool close = refits[i].square() - refits.front().square() < 0.01 * explained;
-    if (i == 0 || close || share_better(refits[i], refits.front(), data, options) > 0.05) {
-      tied.push_back(i);
+    if (together(refits[i]) < (1.0 + options.material) * together(refits.front())) {
+      near.push_back(i);
     }
   }
-  return tied;
+  return near;
+}
+
+/// Refits of no more parameters that these data cannot tell from the named one: they win in a fair share of
+/// resamples, or differ from it by less than a hundredth of what it explains.
+std::vector<std::size_t> rivals_of(std::size_t named, const Stage& stage, const std::vector<Refit>& refits,
+                                   const Data& data, const DiagnoseOptions& options) {
+  const Scores& before = stage.estimate.scores;
+  const double explained =
+      before.train * before.train + before.held_out * before.held_out - refits[named].square();
+  std::vector<std::size_t> rivals;
+  for (std::size_t i = 0; i < refits.size(); ++i) {
+    const bool close = refits[i].square() - refits[named].square() < std::min(0.01 * explained, 0.1);
+    if (i != named && refits[i].own <= refits[named].own &&
+        (close || share_better(refits[i], refits[named], data, options) > 0.05)) {
+      rivals.push_back(i);
+    }
+  }
+  return rivals;
 }
 
 class Diagnoser {
@@ -74,6 +89,33 @@ class Diagnoser {
     }
     drop_superfluous(diagnosis);
     conclude(base, diagnosis);
+  }
+
+  /// The ladder on all windows, where candidates were tried on a part of them.
+  void rescore(const Data& all, Diagnosis& diagnosis) const {
+    for (Rung& rung : diagnosis.ladder) {
+      progress_("all windows for " + rung.name, 0.9);
+      PredictorPool pool(rung.stage.model, all);
+      rung.stage.estimate =
+          gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {}, {8, 1e-3});
+    }
+    diagnosis.final_stage = diagnosis.ladder.back().stage;
+    for (Finding& finding : diagnosis.accepted) {
+      for (std::size_t r = 1; r < diagnosis.ladder.size(); ++r) {
+        if (diagnosis.ladder[r].name == "+ " + finding.effect + "@" + finding.at) {
+          finding.train_before = diagnosis.ladder[r - 1].train();
+          finding.held_out_before = diagnosis.ladder[r - 1].held_out();
+          finding.train_after = diagnosis.ladder[r].train();
+          finding.held_out_after = diagnosis.ladder[r].held_out();
+        }
+      }
+    }
+  }
+
+  /// The rung before anything was added.
+  static const Rung& first_rung(const Diagnosis& diagnosis) {
+    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
+    return diagnosis.ladder[fitted ? 1 : 0];
   }
 
   void conclude(const Scores& base, Diagnosis& diagnosis) const {
@@ -99,15 +141,14 @@ class Diagnoser {
     stage.model = model;
     PredictorPool pool(model, data_);
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-3});
-    diagnosis.ladder.push_back({"as given", given.scores.train, given.scores.held_out});
+    diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.parameters = stated_parameters(model, options_.parameter_width);
     stage.estimate = given;
     if (!stage.parameters.empty()) {
       progress_("the model's own parameters", 0.5);
       stage.estimate =
           gauss_newton(pool, stage.parameters, values_of(model, stage.parameters), given.x0, {10, 1e-3});
-      diagnosis.ladder.push_back(
-          {"own parameters fitted", stage.estimate.scores.train, stage.estimate.scores.held_out});
+      diagnosis.ladder.push_back({"own parameters fitted", stage});
     }
   }
 
@@ -135,42 +176,33 @@ class Diagnoser {
     return accepted;
   }
 
-  /// Takes the best refit if nothing speaks against it; of those tied with it, the one with the fewest
-  /// parameters is named and the others of its size are its rivals.
+  /// Of the refits that are about as good as the best, the one with the fewest parameters is named (a law
+  /// that contains another is not preferred to it for an immaterial gain), if nothing speaks against it.
   bool judge(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
              std::vector<RankRow>& rows, Diagnosis& diagnosis) const {
     const Stage& stage = diagnosis.final_stage;
     const std::vector<double> shares = selected_shares(stage, refits, data_, options_);
-    const std::vector<std::size_t> tied = tied_with_best(stage, refits, data_, options_);
+    std::vector<std::size_t> near = near_best(refits, options_);
     double share = 0.0;
-    std::size_t named = tied.front();
-    for (const std::size_t i : tied) {
+    for (const std::size_t i : near) {
       share += shares[i];
-      if (refits[i].own < refits[named].own) {
-        named = i;
-      }
     }
     for (std::size_t i = 0; i < refits.size(); ++i) {
-      rows[i].remark = objection(stage, refits[i], i == named ? share : 1.0, data_, options_);
+      const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
+      rows[i].remark = objection(stage, refits[i], is_near ? share : shares[i], data_, options_);
     }
-    if (!rows[named].remark.empty()) {
-      // The smallest of the set may fail where a larger law does not.
-      for (const std::size_t i : tied) {
-        if (rows[i].remark.empty() && share >= options_.stable) {
-          named = i;
-          break;
-        }
-      }
-    }
-    if (!rows[named].remark.empty()) {
+    std::stable_sort(near.begin(), near.end(),
+                     [&](std::size_t a, std::size_t b) { return refits[a].own < refits[b].own; });
+    const auto named = std::find_if(near.begin(), near.end(), [&](std::size_t i) { return rows[i].remark.empty(); });
+    if (named == near.end()) {
       return false;
     }
-    accept(candidates, refits, tied, named, share, diagnosis);
+    accept(candidates, refits, rivals_of(*named, stage, refits, data_, options_), *named, share, diagnosis);
     return true;
   }
 
   void accept(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
-              const std::vector<std::size_t>& tied, std::size_t named, double share,
+              const std::vector<std::size_t>& rivals, std::size_t named, double share,
               Diagnosis& diagnosis) const {
     const Refit& refit = refits[named];
     const Candidate& candidate = candidates[static_cast<std::size_t>(refit.candidate)];
@@ -187,11 +219,9 @@ class Diagnoser {
     for (const std::string& same : candidate.same_places) {
       finding.rivals.push_back({finding.effect, same});
     }
-    for (const std::size_t i : tied) {
-      if (i != named && refits[i].own <= refit.own) {
-        const Candidate& rival = candidates[static_cast<std::size_t>(refits[i].candidate)];
-        finding.rivals.push_back({rival.law->declaration().name, rival.at});
-      }
+    for (const std::size_t i : rivals) {
+      const Candidate& rival = candidates[static_cast<std::size_t>(refits[i].candidate)];
+      finding.rivals.push_back({rival.law->declaration().name, rival.at});
     }
     diagnosis.final_stage = {with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
                              refit.extended.parameters, refit.estimate};
@@ -206,8 +236,7 @@ class Diagnoser {
                                     refit.estimate.theta[i], deviations[i]});
     }
     diagnosis.accepted.push_back(finding);
-    diagnosis.ladder.push_back(
-        {"+ " + candidate.label(), refit.estimate.scores.train, refit.estimate.scores.held_out});
+    diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
   }
 
   /// An early guess that the later ones make superfluous is dropped again.
@@ -223,8 +252,7 @@ class Diagnoser {
       const double rise =
           judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
       if (rise < options_.material) {
-        diagnosis.ladder.push_back({"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at,
-                                    without.estimate.scores.train, without.estimate.scores.held_out});
+        diagnosis.ladder.push_back({"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
         diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
         stage = without;
       } else {
@@ -312,14 +340,18 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  Diagnoser diagnoser(catalogue, data, options, progress);
+  const Data part = data.thinned(options.windows);
+  Diagnoser diagnoser(catalogue, part, options, progress);
   try {
     diagnoser.run(model, diagnosis);
+    if (part.windows.size() < data.windows.size()) {
+      diagnoser.rescore(data, diagnosis);
+      diagnoser.conclude(Diagnoser::first_rung(diagnosis).stage.estimate.scores, diagnosis);
+    }
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      const Rung& first = diagnosis.ladder.front();
-      diagnoser.conclude({first.train, first.held_out}, diagnosis);
+      diagnoser.conclude(diagnosis.ladder.front().stage.estimate.scores, diagnosis);
     }
   }
   return diagnosis;

@@ -16,6 +16,7 @@ struct DiagnoseOptions {
   double at_floor = 1.05;          ///< error at which nothing is left to explain
   double consistent = 0.35;        ///< relative disagreement of a parameter between train and held-out
   double parameter_width = 2.0;    ///< stated standard deviations that the model's own parameters may move
+  std::size_t windows = 24;        ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;
   unsigned seed = 1;
 };
@@ -52,7 +53,9 @@ struct RankRow {
 
 struct Rung {
   std::string name;  ///< "as given", "own parameters fitted", "+ coulomb@drive"
-  double train = 0.0, held_out = 0.0;
+  Stage stage;
+  double train() const { return stage.estimate.scores.train; }
+  double held_out() const { return stage.estimate.scores.held_out; }
 };
 
 enum class Verdict { missing, nothing_missing, unexplained };

@@ -146,13 +146,15 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   check_can_move(model, parameters);
   progress("the model as given", 0.0);
   PredictorPool pool(model, data);
-  const Estimate given = estimate(pool, {}, Eigen::VectorXd(), {}, {8, 1e-5});
+  const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
   set_typical(model, data, parameters);
   progress("fitting " + std::to_string(parameters.size()) + " parameters", 0.2);
   FitNumbers numbers;
   numbers.before = values_of(model, parameters);
+  const Estimate near = gauss_newton(pool, parameters, numbers.before, given.x0, {options.iterations, 1e-3});
+  progress("the last digits", 0.6);
   const Estimate fitted =
-      estimate(pool, parameters, numbers.before, given.x0, {options.iterations, options.tolerance});
+      estimate(pool, parameters, near.theta, near.x0, {options.iterations, options.tolerance});
   progress("how sure they are", 0.9);
   numbers.after = fitted.theta;
   numbers.deviations = parameter_deviations(pool, parameters, fitted, &numbers.correlation);
@@ -164,7 +166,7 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   result.windows = numbers.windows;
   result.degrees_of_freedom = numbers.windows - static_cast<int>(parameters.size());
   result.quantile = student_quantile(options.confidence, result.degrees_of_freedom);
-  result.iterations = fitted.iterations;
+  result.iterations = near.iterations + fitted.iterations;
   result.converged = fitted.converged;
   return result;
 }

@@ -287,7 +287,7 @@ void check_command_units(const model::Model& model, const Trial& trial) {
       const std::string column =
           "column \"" + command.column + "\" in " + (command.unit.empty() ? unit : command.unit);
       char factor[32];
-      std::snprintf(factor, sizeof factor, "%.3g", gain.gain);
+      std::snprintf(factor, sizeof factor, "%.3g", gain.factor());
       throw InputError(
           {trial.file, 0, "commands." + gain.motor + ".column"},
           "that the measured motion needs " + std::string(factor) + " times the force of " + column,

@@ -57,6 +57,8 @@ struct CommandGain {
   double gain = 0.0, correlation = 0.0;
   double core_gain = 0.0, core_correlation = 0.0;
 
+  /// The better correlated of the two gains: nearest to the factor between two units.
+  double factor() const { return core_correlation > correlation ? core_gain : gain; }
   /// True when no missing effect explains the gain: needed and commanded force follow each other
   /// (correlation above 0.7) by a factor outside 1/4 to 4. Where the motion needs less than commanded,
   /// friction or a spring that the model lacks could be the reason, so there the core must say the same.

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumbline::validation {
@@ -41,7 +42,36 @@ class WindowCost : public ceres::CostFunction {
 
   const Eigen::VectorXd& expected() const { return expected_; }
 
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+  /// Everything that Evaluate() will be asked for at this point.
+  void prepare(const double* search, const double* x0, bool with_jacobians) {
+    residuals_.resize(num_residuals());
+    to_search_.resize(num_residuals(), units_.size());
+    to_x_.resize(num_residuals(), expected_.size());
+    const bool free = units_.size() > 0;
+    const std::array<const double*, 2> blocks = {free ? search : x0, x0};
+    std::array<double*, 2> jacobians = {free ? to_search_.data() : to_x_.data(), to_x_.data()};
+    fine_ = evaluate(blocks.data(), residuals_.data(), with_jacobians ? jacobians.data() : nullptr);
+  }
+
+  bool Evaluate(double const* const* /*blocks*/, double* residuals, double** jacobians) const override {
+    std::copy(residuals_.begin(), residuals_.end(), residuals);
+    const auto hand_over = [](const Matrix& from, double* to) {
+      if (to != nullptr) {
+        std::copy(from.data(), from.data() + from.size(), to);
+      }
+    };
+    if (jacobians != nullptr) {
+      const bool free = units_.size() > 0;
+      hand_over(to_x_, jacobians[free ? 1 : 0]);
+      if (free) {
+        hand_over(to_search_, jacobians[0]);
+      }
+    }
+    return fine_;
+  }
+
+ private:
+  bool evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
     const bool free = units_.size() > 0;
     const Eigen::VectorXd theta = free ? values_of(parameters_, units_, blocks[0]) : fixed_;
     const Eigen::Map<const Eigen::VectorXd> x0(blocks[free ? 1 : 0], expected_.size());
@@ -61,7 +91,6 @@ class WindowCost : public ceres::CostFunction {
     return fine;
   }
 
- private:
   bool fill(Predictor& predictor, const Eigen::VectorXd& theta, const Eigen::VectorXd& x0, double* residuals,
             double** jacobians) const {
     const Window& w = pool_.data().windows[static_cast<std::size_t>(window_)];
@@ -95,12 +124,39 @@ class WindowCost : public ceres::CostFunction {
   const std::vector<FreeParameter>& parameters_;
   Eigen::VectorXd units_, fixed_, expected_, spread_;
   Eigen::Index rows_ = 0;
+  Eigen::VectorXd residuals_;
+  Matrix to_search_, to_x_;
+  bool fine_ = false;
 };
 
-ceres::Solver::Options solver_options(const PredictorPool& pool, const EstimateOptions& options) {
+/// Evaluates the windows in parallel before Ceres collects them on one thread: its own threads would sum in
+/// an order of chance, and an estimate could not be repeated to the last bit.
+class AllWindows : public ceres::EvaluationCallback {
+ public:
+  explicit AllWindows(int threads) : threads_(threads) {}
+  void add(WindowCost* cost, const double* search, const double* x0) {
+    windows_.push_back({cost, search, x0});
+  }
+  void PrepareForEvaluation(bool with_jacobians, bool /*new_point*/) override {
+    parallel_for(static_cast<int>(windows_.size()), threads_, [&](int i) {
+      const Item& window = windows_[static_cast<std::size_t>(i)];
+      window.cost->prepare(window.search, window.x0, with_jacobians);
+    });
+  }
+
+ private:
+  struct Item {
+    WindowCost* cost;
+    const double *search, *x0;
+  };
+  int threads_;
+  std::vector<Item> windows_;
+};
+
+ceres::Solver::Options solver_options(const EstimateOptions& options) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.num_threads = pool.data().threads;
+  solver.num_threads = 1;
   solver.max_num_iterations = options.iterations;
   solver.function_tolerance = options.tolerance;
   solver.logging_type = ceres::SILENT;
@@ -132,7 +188,10 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
                              const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
                              Eigen::VectorXd& theta, std::vector<Eigen::VectorXd>& x0,
                              const EstimateOptions& options) {
-  ceres::Problem problem;
+  AllWindows evaluation(pool.data().threads);
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &evaluation;
+  ceres::Problem problem(problem_options);
   Eigen::VectorXd search(units.size());
   for (Eigen::Index p = 0; p < units.size(); ++p) {
     search[p] = to_search(parameters[static_cast<std::size_t>(p)].scale, theta[p]) / units[p];
@@ -153,6 +212,7 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
       blocks.push_back(search.data());
     }
     blocks.push_back(start.data());
+    evaluation.add(costs[i].get(), search.data(), start.data());
     problem.AddResidualBlock(costs[i].release(), nullptr, blocks);
     order->AddElementToGroup(start.data(), 0);
   }
@@ -160,7 +220,7 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
     set_bounds(problem, search.data(), parameters, units);
     order->AddElementToGroup(search.data(), 1);
   }
-  ceres::Solver::Options solver = solver_options(pool, options);
+  ceres::Solver::Options solver = solver_options(options);
   if (units.size() > 0) {
     solver.linear_solver_ordering = order;
   } else {

@@ -39,6 +39,19 @@ Data::Data(std::vector<Trial> all, const PredictOptions& options)
   threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+Data Data::thinned(std::size_t most) const {
+  Data copy = *this;
+  copy.windows.clear();
+  for (const Role wanted : {Role::train, Role::held_out}) {
+    const std::vector<int> all = windows_of(wanted);
+    const std::size_t count = std::min(most, all.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      copy.windows.push_back(windows[static_cast<std::size_t>(all[i * all.size() / count])]);
+    }
+  }
+  return copy;
+}
+
 Role Data::role(std::size_t window) const {
   return trials[static_cast<std::size_t>(windows[window].trial)].role;
 }

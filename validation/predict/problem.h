@@ -33,6 +33,8 @@ struct Data {
   const StopFlag* stop = nullptr;
 
   Data(std::vector<Trial> all, const PredictOptions& options);
+  /// The same trials with at most `most` windows of each role, spread evenly.
+  Data thinned(std::size_t most) const;
   Role role(std::size_t window) const;
   std::vector<int> windows_of(Role role) const;
   bool has(Role role) const { return !windows_of(role).empty(); }

@@ -203,8 +203,24 @@ Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd&
   return residual_of(window, predict(window, x0));
 }
 
-// Sensitivities S' = A S + B along the predicted motion, by the trapezoidal rule over each sample with A and
-// B at its middle: stable for stiff laws, second order, one linearisation for each sample.
+// Linearisation over sample k of the window: at the middle of its states, under its mean command.
+void Predictor::tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
+                           const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A,
+                           Eigen::MatrixXd& B) {
+  Eigen::VectorXd command(plant_.motors());
+  Eigen::VectorXd slope(plant_.motors());
+  commands_->mean(window.first + k, command.data(), slope.data());
+  const Eigen::VectorXd middle = 0.5 * (states_.col(k) + states_.col(k + 1));
+  const Eigen::VectorXd change = states_.col(k + 1) - states_.col(k);
+  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), trial_.period}, ids, steps, refresh,
+                 A, B);
+}
+
+// Sensitivities S' = A S + B along the predicted motion, over each sample with A and B of its middle:
+//   S <- D^-1 (N S + h B), D, N = I -+ hA/2 + (hA)^2/12,
+// Pade's (2,2) approximation of the exponential (Hairer and Wanner, Solving ODEs II, IV.3): stable for stiff
+// laws, fourth order in hA, one linearisation for each sample. The rigid parts are those of the middle of the
+// samples that share them.
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
   Linearisation out;
@@ -233,8 +249,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd C;
   Eigen::MatrixXd D;
   Eigen::MatrixXd right;
-  Eigen::VectorXd command(plant_.motors());
-  Eigen::VectorXd slope(plant_.motors());
+  Eigen::MatrixXd square;
   const double h = trial_.period;
   const Eigen::Index nz = plant_.positions();
   for (Eigen::Index k = 0; k < window.count; ++k) {
@@ -252,12 +267,16 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     if (k + 1 == window.count) {
       break;
     }
-    commands_->mean(window.first + k, command.data(), slope.data());
-    const Eigen::VectorXd middle = 0.5 * (states_.col(k) + states_.col(k + 1));
-    plant_.tangent(middle.data(), command.data(), slope.data(), ids, steps, k % options_.refresh == 0, A, B);
-    right = S + 0.5 * h * (A * S);
+    if (k % options_.refresh == 0) {
+      tangent_at(window, std::min(k + options_.refresh / 2, window.count - 2), ids, steps, true, A, B);
+    }
+    tangent_at(window, k, ids, steps, false, A, B);
+    A *= 0.5 * h;
+    square.noalias() = A * A / 3.0;
+    right.noalias() = (A + square) * S;
+    right += S;
     right.rightCols(np) += h * B;
-    A *= -0.5 * h;
+    A = square - A;
     A.diagonal().array() += 1.0;
     S = A.partialPivLu().solve(right);
   }

@@ -76,6 +76,8 @@ class Predictor {
  private:
   void run(const Window& window, const Eigen::VectorXd& x0);
   void refresh_commands();
+  void tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
+                  const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
 
   const Trial& trial_;
