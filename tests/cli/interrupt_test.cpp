@@ -38,8 +38,11 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("Stopped before the end"));
   const nlohmann::json json = read_json("d.json");
+  EXPECT_THAT(keys(json), testing::IsSupersetOf({"verdict", "interrupted", "candidates", "unexplained_share",
+                                                 "accepted", "ranking", "leads", "ladder"}));
   EXPECT_EQ(json["interrupted"], true);
   ASSERT_GE(json["ladder"].size(), 1U);
+  EXPECT_THAT(keys(json["ladder"][0]), testing::UnorderedElementsAre("name", "train", "held_out"));
   EXPECT_EQ(json["ladder"][0]["name"], "as given");
 }
 

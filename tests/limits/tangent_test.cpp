@@ -63,8 +63,8 @@ class Tangent : public testing::TestWithParam<Case> {
     x0_ = exact_->initial_state(window_);
   }
 
-  void expect_column(const Eigen::VectorXd& found, const Eigen::VectorXd& expected,
-                     const std::string& label) {
+  void expect_column(const Eigen::VectorXd& found, const Eigen::VectorXd& expected, const std::string& label,
+                     double limit = kShare) {
     const double share = (found - expected).norm() / expected.norm();
     std::printf("%-24s %-42s %9.2e\n", GetParam().label.c_str(), label.c_str(), share);
     EXPECT_GT(expected.norm(), 0.0) << label;
