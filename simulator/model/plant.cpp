@@ -338,6 +338,16 @@ std::vector<std::string> Plant::state_names() const {
   return names;
 }
 
+std::vector<int> Plant::force_states() const {
+  std::vector<int> indices;
+  for (const ForceSlot& slot : forces_) {
+    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
+      indices.push_back(slot.state + k);
+    }
+  }
+  return indices;
+}
+
 double Plant::value(ParameterId id) const {
   return values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
 }

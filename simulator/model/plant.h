@@ -57,6 +57,8 @@ class Plant {
   int motors() const { return static_cast<int>(model_.motors.size()); }
   int sensors() const { return static_cast<int>(model_.sensors.size()); }
   std::vector<std::string> state_names() const;
+  /// Indices in x of the hidden states of force laws (bristles).
+  std::vector<int> force_states() const;
 
   /// Time derivative of the state for the commands that hold now (delayed already, in command units).
   void rate(const double* x, const double* command, double* xdot);

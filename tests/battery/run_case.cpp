@@ -57,7 +57,8 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   result.after = diagnosis.final_stage.estimate.scores.held_out;
   result.before = result.after;
-  result.right = result.one.kind != Kind::hidden && diagnosis.accepted.empty();
+  result.right = (result.one.kind == Kind::none && diagnosis.accepted.empty()) ||
+                 (result.one.kind == Kind::removed && diagnosis.verdict != validation::Verdict::missing);
   if (diagnosis.accepted.empty()) {
     return;
   }

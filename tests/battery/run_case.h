@@ -21,7 +21,8 @@ struct Result {
   std::string others;   ///< further accepted effects, joined by spaces
   int set_size = 0;     ///< the first name and its rivals
   bool in_set = false;  ///< the truth is the first name or one of its rivals
-  /// hidden: named first, or in a set of at most kMostRivals rivals; otherwise: nothing named
+  /// hidden: named first, or in a set of at most kMostRivals rivals; none: nothing named; removed: no verdict
+  /// "missing"
   bool right = false;
   double before = 0.0;  ///< held-out error with the model's own parameters fitted
   double after = 0.0;   ///< held-out error with all that was accepted

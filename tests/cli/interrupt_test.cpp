@@ -17,12 +17,15 @@ class Interrupt : public RobotFolder {
     succeed({"twin", "robot/model.yaml", "--experiment", "experiments/steps.yaml", "--out", "long"});
   }
 
-  /// Starts the command, interrupts it after so many seconds and returns how it ended; it must end soon.
-  Outcome interrupted(const std::vector<std::string>& arguments, double seconds) const {
+  /// Starts the command on a terminal and interrupts it as soon as that shows the text; it must end soon.
+  Outcome interrupted_at(const std::string& text, const std::vector<std::string>& arguments) const {
+    Process process(arguments, folder, Errors::terminal);
+    EXPECT_TRUE(process.wait_for_shown(text));
+    return interrupted(process);
+  }
+
+  static Outcome interrupted(Process& process) {
     using Clock = std::chrono::steady_clock;
-    Process process(arguments, folder);
-    process.wait_until_ready();
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
     EXPECT_TRUE(process.is_running()) << "it was done before it could be interrupted";
     const auto begin = Clock::now();
     process.interrupt();
@@ -33,8 +36,9 @@ class Interrupt : public RobotFolder {
 };
 
 TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
-  const Outcome outcome =
-      interrupted({"diagnose", "trials/chirp", "trials/steps", "trials/swing", "--json", "d.json"}, 8.0);
+  make_long_trial();
+  const Outcome outcome = interrupted_at(
+      "the model's own parameters", {"diagnose", "long/steps", "--json", "d.json", "--save", "found.yaml"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("Stopped before the end"));
   const nlohmann::json json = read_json("d.json");
@@ -44,12 +48,13 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   ASSERT_GE(json["ladder"].size(), 1U);
   EXPECT_THAT(keys(json["ladder"][0]), testing::UnorderedElementsAre("name", "train", "held_out"));
   EXPECT_EQ(json["ladder"][0]["name"], "as given");
+  succeed({"check", "found.yaml"});
 }
 
 TEST_F(Interrupt, DiagnoseEndsCleanlyBeforeAnythingIsFinished) {
   make_long_trial();
-  const Outcome outcome =
-      interrupted({"diagnose", "long/steps", "--json", "d.json", "--save", "found.yaml"}, 0.3);
+  const Outcome outcome = interrupted_at(
+      "the model as given", {"diagnose", "long/steps", "--json", "d.json", "--save", "found.yaml"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json json = read_json("d.json");
   EXPECT_EQ(json["interrupted"], true);
@@ -60,19 +65,22 @@ TEST_F(Interrupt, DiagnoseEndsCleanlyBeforeAnythingIsFinished) {
 TEST_F(Interrupt, FitWritesNothing) {
   make_long_trial();
   const auto before = snapshot();
-  const Outcome outcome =
-      interrupted({"fit", "long/steps", "--free", "*", "--out", "fitted.yaml", "--json", "f.json"}, 0.3);
+  const Outcome outcome = interrupted_at(
+      "the model as given", {"fit", "long/steps", "--free", "*", "--out", "fitted.yaml", "--json", "f.json"});
   EXPECT_EQ(outcome.status, 130);
-  EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user\n"));
+  EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user"));
   EXPECT_THAT(changed_since(before), testing::IsEmpty());
 }
 
 TEST_F(Interrupt, SimulateWritesNothing) {
   replace("experiments/swing.yaml", "duration: {value: 2, unit: s}", "duration: {value: 1000, unit: s}");
   const auto before = snapshot();
-  const Outcome outcome = interrupted({"simulate", "--experiment", "experiments/swing.yaml", "--model",
-                                       "robot/model.yaml", "--out", "trace.csv"},
-                                      0.7);
+  Process process({"simulate", "--experiment", "experiments/swing.yaml", "--model", "robot/model.yaml",
+                   "--out", "trace.csv"},
+                  folder);
+  process.wait_until_ready();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const Outcome outcome = interrupted(process);
   EXPECT_EQ(outcome.status, 130);
   EXPECT_EQ(outcome.err, "plumbline: stopped by the user\n");
   EXPECT_THAT(changed_since(before), testing::IsEmpty());

@@ -1,10 +1,12 @@
 #include "tests/cli/program.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -31,12 +33,23 @@ void redirect(const char* file, int descriptor) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments, const std::string& working_folder) {
+Process::Process(const std::vector<std::string>& arguments, const std::string& working_folder,
+                 Errors errors) {
   std::string pattern = (std::filesystem::temp_directory_path() / "plumbline-run-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr) {
     throw std::runtime_error("no temporary folder");
   }
   folder_ = pattern;
+  if (errors == Errors::terminal) {
+    if (::openpty(&terminal_, &terminal_of_child_, nullptr, nullptr, nullptr) != 0) {
+      throw std::runtime_error("no terminal");
+    }
+    ::fcntl(terminal_, F_SETFL, O_NONBLOCK);
+  }
+  start(arguments, working_folder);
+}
+
+void Process::start(const std::vector<std::string>& arguments, const std::string& working_folder) {
   const std::string program = PLUMBLINE_PROGRAM;
   const std::string out = folder_ + "/out";
   const std::string err = folder_ + "/err";
@@ -48,7 +61,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::string& w
   pid_ = ::fork();
   if (pid_ == 0) {
     redirect(out.c_str(), STDOUT_FILENO);
-    redirect(err.c_str(), STDERR_FILENO);
+    terminal_ >= 0 ? void(::dup2(terminal_of_child_, STDERR_FILENO)) : redirect(err.c_str(), STDERR_FILENO);
     if (::chdir(working_folder.c_str()) == 0) {
       ::execv(program.c_str(), argv.data());
     }
@@ -61,8 +74,34 @@ Process::~Process() {
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, &raw_status_, 0);
   }
+  if (terminal_ >= 0) {
+    ::close(terminal_);
+    ::close(terminal_of_child_);
+  }
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
+}
+
+void Process::read_terminal() {
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 1; terminal_ >= 0 && n > 0;) {
+    n = ::read(terminal_, buffer.data(), buffer.size());
+    shown_.append(buffer.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+  }
+}
+
+bool Process::wait_for_shown(const std::string& text) {
+  for (int tries = 0; tries < 30000; ++tries) {
+    read_terminal();
+    if (shown_.find(text) != std::string::npos) {
+      return true;
+    }
+    if (!is_running()) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
 }
 
 void Process::wait_until_ready() const {
@@ -89,14 +128,15 @@ bool Process::is_running() {
 }
 
 Outcome Process::wait() {
-  if (!ended_) {
-    ::waitpid(pid_, &raw_status_, 0);
-    ended_ = true;
+  while (is_running()) {
+    read_terminal();  // or the program would wait until somebody does
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  read_terminal();
   Outcome outcome;
   outcome.status = WIFEXITED(raw_status_) ? WEXITSTATUS(raw_status_) : 128 + WTERMSIG(raw_status_);
   outcome.out = content(folder_ + "/out");
-  outcome.err = content(folder_ + "/err");
+  outcome.err = terminal_ >= 0 ? shown_ : content(folder_ + "/err");
   return outcome;
 }
 

@@ -96,7 +96,7 @@ std::string RobotFolder::read(const std::string& name) const {
 }
 
 nlohmann::json RobotFolder::read_json(const std::string& name) const {
-  const nlohmann::json json = nlohmann::json::parse(read(name), nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(read(name), nullptr, false);
   EXPECT_FALSE(json.is_discarded()) << name << " is no JSON";
   return json;
 }

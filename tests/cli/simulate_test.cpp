@@ -121,6 +121,38 @@ TEST_F(Simulate, ExperimentStartsAtRestWhereItSays) {
   EXPECT_EQ(simulated.rows(), 1000);
 }
 
+/// The leg on the bench, whose second motor is locked in this experiment.
+class SimulateLeg : public RobotFolder {
+ protected:
+  const std::string leg = std::string(PLUMBLINE_ROOT) + "/robots/mabel/leg_bench.yaml";
+  const std::string experiment = std::string(PLUMBLINE_ROOT) + "/robots/mabel/experiments/siso_mLA.yaml";
+};
+
+TEST_F(SimulateLeg, EnergyBalancesWithAStretchedCable) {
+  succeed({"add", "cable_stretch", "--at", "leg_angle", "--set", "stiffness=3.5", "--set", "damping=0.09",
+           "--model", leg, "--out", "leg.yaml"});
+  succeed({"simulate", "--experiment", experiment, "--model", "leg.yaml", "--json", "s.json"});
+  const nlohmann::json energy = read_json("s.json")["energy"];
+  EXPECT_GT(energy["exchanged"].get<double>(), 1.0);
+  EXPECT_LT(std::abs(energy["relative_error"].get<double>()), 1e-6);
+}
+
+TEST_F(SimulateLeg, ALockedMotorStaysWhereItIs) {
+  succeed({"twin", leg, "--experiment", experiment, "--out", "leg"});
+  succeed({"check", "leg/siso_mLA", "--json", "c.json"});
+  const nlohmann::json checked = read_json("c.json");
+  EXPECT_EQ(checked["independent_coordinates"], 1);
+  ASSERT_EQ(checked["locked"].size(), 1U);
+  EXPECT_EQ(checked["locked"][0]["at"], "mLS");
+  // 20 degrees of leg shape times the ratio of 31.42
+  EXPECT_NEAR(checked["locked"][0]["value"].get<double>(), 20.0 * 3.141592653589793 / 180.0 * 31.42, 1e-6);
+  succeed({"simulate", "leg/siso_mLA", "--out", "trace.csv"});
+  const Table simulated = read_table(folder + "/trace.csv");
+  const Eigen::VectorXd& motor = column(simulated, "x_mLS");
+  EXPECT_LT(motor.maxCoeff() - motor.minCoeff(), 1e-9);
+  EXPECT_LT(column(simulated, "v_mLS").cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST_F(Simulate, ClosedLoopCommandsAreTheControllersOwn) {
   control("steps");
   succeed({"simulate", "trials/steps", "--closed-loop", "--out", "loop.csv"});

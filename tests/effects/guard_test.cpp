@@ -39,7 +39,7 @@ TEST(SmoothSign, IsOddBoundedAndSharpensWithItsSpeed) {
 TEST(SmoothingSpeed, IsASmallShareOfTheVelocity) {
   Scales scales;
   scales.velocity = 4.0;
-  EXPECT_DOUBLE_EQ(smoothing_speed_for(scales), 0.08);
+  EXPECT_DOUBLE_EQ(smoothing_speed_for(scales), 0.008);
 }
 
 }  // namespace

@@ -47,8 +47,11 @@ using Solver = validation::Estimate (*)(validation::PredictorPool&,
 validation::Estimate estimate_with(Solver solver, int threads) {
   const model::Model model = with_effect(leg_bench(), "coulomb", "mLA", {0.01, 0.05});
   const model::Model truth = with_effect(leg_bench(), "coulomb", "mLA", {0.05, 0.05});
-  validation::Data data({validation::twin(truth, both_motors(truth, 2.0), {})}, {});
-  data.trials.front().role = validation::Role::train;
+  validation::Trial train = validation::twin(truth, both_motors(truth, 1.5), {});
+  validation::Trial held_out = validation::twin(truth, both_motors(truth, 1.0), {});
+  train.role = validation::Role::train;
+  held_out.role = validation::Role::held_out;
+  validation::Data data({train, held_out}, {});
   data.threads = threads;
   validation::PredictorPool pool(model, data);
   const int last = static_cast<int>(model.effects.size()) - 1;
@@ -70,6 +73,8 @@ void expect_same(Solver solver) {
   EXPECT_NEAR(one.theta[0], 0.05, 5e-3);
   EXPECT_TRUE(one.theta == two.theta) << one.theta.transpose() << " and " << two.theta.transpose();
   EXPECT_EQ(one.scores.train, two.scores.train);
+  EXPECT_EQ(one.scores.held_out, two.scores.held_out);
+  EXPECT_NEAR(one.scores.held_out, 1.0, 0.2);
   ASSERT_EQ(one.x0.size(), two.x0.size());
   for (std::size_t w = 0; w < one.x0.size(); ++w) {
     EXPECT_TRUE(one.x0[w] == two.x0[w]);

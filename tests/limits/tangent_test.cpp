@@ -93,8 +93,8 @@ TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
     exact_->plant().set_value(parameters[p].id, here - step);
     const Eigen::VectorXd down = exact_->residual(window_, x0_);
     exact_->plant().set_value(parameters[p].id, here);
-    expect_column(found.Jp.col(static_cast<Eigen::Index>(p)), (down - up) / (2.0 * step),
-                  parameters[p].label);
+    expect_column(found.Jp.col(static_cast<Eigen::Index>(p)), (down - up) / (2.0 * step), parameters[p].label,
+                  GetParam().moved[p].share);
   }
   const std::vector<std::string> names = exact_->plant().state_names();
   for (Eigen::Index i = 0; i < x0_.size(); ++i) {

@@ -103,6 +103,10 @@ void print_verdict(const Diagnosis& diagnosis) {
   if (diagnosis.interrupted) {
     fmt::print("Stopped before the end: what follows is what was finished.\n\n");
   }
+  if (diagnosis.ladder.empty()) {
+    fmt::print("Nothing was finished.\n");
+    return;
+  }
   const validation::Rung& first = diagnosis.ladder.front();
   const validation::Rung& last = diagnosis.ladder.back();
   switch (diagnosis.verdict) {
@@ -111,16 +115,17 @@ void print_verdict(const Diagnosis& diagnosis) {
                  "alone would leave.\n", last.held_out());
       return;
     case Verdict::unexplained:
-      fmt::print("Unexplained: the model's held-out error is {:.2f} times the floor, and no effect of the "
-                 "catalogue explains it.\n", last.held_out());
-      return;
+      fmt::print("Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
+                 "explains it.{}\n", last.held_out(),
+                 diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
+      break;
     case Verdict::missing:
       break;
   }
   for (const Finding& finding : diagnosis.accepted) {
-    fmt::print("Missing: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
+    fmt::print("{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
                "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
-               finding.effect, finding.at, finding.held_out_before, finding.held_out_after, finding.train_before,
+               diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, finding.held_out_before, finding.held_out_after, finding.train_before,
                finding.train_after, 100.0 * finding.selected_share);
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
@@ -133,6 +138,9 @@ void print_verdict(const Diagnosis& diagnosis) {
       }
       fmt::print("\n");
     }
+  }
+  if (diagnosis.accepted.empty()) {
+    return;
   }
   fmt::print("In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
              "above the floor stays unexplained.\n",
@@ -228,7 +236,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       json["unexplained_forces"].push_back(to_json(force));
     }
     write_json(json, options->inputs.json);
-    if (!options->save.empty()) {
+    if (!options->save.empty() && !diagnosis.ladder.empty()) {
       save_model(diagnosis, loaded.model.file, options->save);
     }
     print(diagnosis);

@@ -200,6 +200,7 @@ void print_sensors(const Model& model) {
 
 Freedom freedom_of(const model::Model& model, const std::vector<validation::Lock>& locks) {
   std::vector<model::Lock> held;
+  held.reserve(locks.size());
   for (const validation::Lock& lock : locks) {
     held.push_back({lock.at, lock.value});
   }

@@ -101,6 +101,7 @@ void check_equation(const Loop& loop, double period, LoopError& error) {
 
 std::vector<double> delays_of(const model::Plant& plant) {
   std::vector<double> delays;
+  delays.reserve(static_cast<std::size_t>(plant.motors()));
   for (int m = 0; m < plant.motors(); ++m) {
     delays.push_back(plant.delay(m));
   }

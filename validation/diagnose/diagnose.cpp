@@ -124,10 +124,11 @@ class Diagnoser {
     const double excess = before * before - 1.0;
     diagnosis.unexplained_share =
         excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
-    if (!diagnosis.accepted.empty()) {
-      diagnosis.verdict = Verdict::missing;
-    } else {
+    if (diagnosis.accepted.empty()) {
       diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
+    } else {
+      // Names that leave the error far above the floor are a part of the answer at best.
+      diagnosis.verdict = after < options_.finished ? Verdict::missing : Verdict::unexplained;
     }
     if (diagnosis.verdict == Verdict::nothing_missing) {
       diagnosis.unexplained_share = 0.0;

@@ -14,6 +14,7 @@ struct DiagnoseOptions {
   double material = 0.05;          ///< least relative fall of the held-out error
   double stable = 0.7;             ///< least share of resamples that choose the effect (or a rival)
   double at_floor = 1.05;          ///< error at which nothing is left to explain
+  double finished = 1.5;           ///< error below which what was named is an answer
   double consistent = 0.35;        ///< relative disagreement of a parameter between train and held-out
   double parameter_width = 2.0;    ///< stated standard deviations that the model's own parameters may move
   std::size_t windows = 24;        ///< of each role on which candidates are tried; results are for all windows

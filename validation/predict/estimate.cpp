@@ -202,11 +202,21 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
     costs[static_cast<std::size_t>(i)] = std::make_unique<WindowCost>(pool, windows[static_cast<std::size_t>(i)],
                                                                       parameters, units, theta);
   });
+  // Ceres eliminates blocks in the order of their addresses: in one array they are in the windows' order.
+  Eigen::Index all = 0;
+  for (const auto& cost : costs) {
+    all += cost->expected().size();
+  }
+  Eigen::VectorXd states(all);
+  std::vector<Eigen::Index> sizes;
+  Eigen::Index next = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    Eigen::VectorXd& start = x0[static_cast<std::size_t>(windows[i])];
-    if (start.size() != costs[i]->expected().size()) {
-      start = costs[i]->expected();
-    }
+    const Eigen::Index nx = costs[i]->expected().size();
+    const Eigen::VectorXd& given = x0[static_cast<std::size_t>(windows[i])];
+    auto start = states.segment(next, nx);
+    start = given.size() == nx ? given : costs[i]->expected();
+    next += nx;
+    sizes.push_back(nx);
     std::vector<double*> blocks;
     if (units.size() > 0) {
       blocks.push_back(search.data());
@@ -230,6 +240,11 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
   ceres::Solve(solver, &problem, &summary);
   if (pool.data().stop != nullptr && pool.data().stop->raised) {
     throw Stopped();
+  }
+  next = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    x0[static_cast<std::size_t>(windows[i])] = states.segment(next, sizes[i]);
+    next += sizes[i];
   }
   theta = units.size() > 0 ? values_of(parameters, units, search.data()) : theta;
   return summary;

@@ -147,6 +147,11 @@ Eigen::VectorXd Predictor::initial_spread(const Window& window) {
   for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
     spread[i] = 1.0 + std::abs(x[i]);
   }
+  // A bristle starts relaxed: left free, it would be a force of its own in every window, and a friction law
+  // would explain whatever is constant over a window.
+  for (const int i : plant_.force_states()) {
+    spread[i] = 1e-9 * spread[i];
+  }
   return spread;
 }
 

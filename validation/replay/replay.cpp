@@ -15,6 +15,7 @@ namespace {
 template <typename Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const Item& item : items) {
     names.push_back(item.name);
   }
@@ -146,6 +147,7 @@ struct Beginning {
 
 Replay run(model::Plant& plant, const Beginning& start, Loops* loops, const ReplayOptions& options) {
   std::vector<double> delays;
+  delays.reserve(static_cast<std::size_t>(plant.motors()));
   for (int m = 0; m < plant.motors(); ++m) {
     delays.push_back(plant.delay(m));
   }
