@@ -29,7 +29,8 @@ struct Parameter {
   double lower = 0.0;       ///< physical bounds; the value may be equal to them
   double upper = 0.0;
   Scale scale = Scale::linear;
-  bool structural = false;  ///< a choice or a numerical constant (side of a stop, cycles per turn): never fitted
+  bool structural =
+      false;  ///< a choice or a numerical constant (side of a stop, cycles per turn): never fitted
 };
 
 /// What a reader sees of a law; the documentation table is made from it.
@@ -40,8 +41,8 @@ struct Declaration {
   std::string source;    ///< paper and equation, or textbook
   std::vector<Place> places;
   std::vector<Parameter> parameters;
-  std::vector<std::string> states;       ///< names of the physics states, empty for most
-  std::string power_note;                ///< if dissipated power can be negative: when, and why
+  std::vector<std::string> states;  ///< names of the physics states, empty for most
+  std::string power_note;           ///< if dissipated power can be negative: when, and why
 };
 
 /// Typical magnitudes at a place, taken from a trial, in the place's own units (rad or m, N m or N).
@@ -117,10 +118,11 @@ class ActuatorLaw : public Law {
 
 /// A change of the robot's constants.
 struct StructureChange {
-  double inertia = 0.0;                              ///< added to the place's generalised inertia
-  double mass = 0.0;                                 ///< added to the body, at its centre of mass, kg
+  double inertia = 0.0;                                 ///< added to the place's generalised inertia
+  double mass = 0.0;                                    ///< added to the body, at its centre of mass, kg
   Eigen::Vector3d com_shift = Eigen::Vector3d::Zero();  ///< of the body, in its frame, m
-  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();       ///< rotation vector applied to gravity in the world frame, rad
+  Eigen::Vector3d tilt =
+      Eigen::Vector3d::Zero();  ///< rotation vector applied to gravity in the world frame, rad
 };
 
 class StructureLaw : public Law {

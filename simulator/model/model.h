@@ -29,9 +29,9 @@ enum class JointType { revolute, prismatic, fixed };
 struct Body {
   std::string name;
   double mass = 0.0;
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();       // p_BBcm_B
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();   // I_BBcm_B
-  double mass_uncertainty = 0.0;                       ///< one standard deviation, kg
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      // p_BBcm_B
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // I_BBcm_B
+  double mass_uncertainty = 0.0;                      ///< one standard deviation, kg
 };
 
 /// A joint from parent to child. parent == -1: the world. Child frame J sits on the child; the joint axis is
@@ -48,8 +48,8 @@ struct Joint {
 
 struct Skeleton {
   std::string file;
-  std::vector<Body> bodies;  ///< parents before children
-  std::vector<Joint> joints; ///< one for each body (bodies fixed to the world have a fixed joint)
+  std::vector<Body> bodies;   ///< parents before children
+  std::vector<Joint> joints;  ///< one for each body (bodies fixed to the world have a fixed joint)
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
 };
 
@@ -106,17 +106,17 @@ struct EffectUse {
 /// One measured channel.
 struct Sensor {
   std::string name;
-  std::string measures;    ///< coordinate or motor
-  double resolution = 0;   ///< position per count, SI; 0: continuous
-  double offset = 0;       ///< SI
-  double noise = 0;        ///< standard deviation, SI
+  std::string measures;   ///< coordinate or motor
+  double resolution = 0;  ///< position per count, SI; 0: continuous
+  double offset = 0;      ///< SI
+  double noise = 0;       ///< standard deviation, SI
   std::string source;
   /// Residual that the sensor alone would leave: sqrt(resolution^2/12 + noise^2).
   double floor() const;
 };
 
 struct Model {
-  std::string file;          ///< the file the user named
+  std::string file;  ///< the file the user named
   std::string robot;
   std::vector<std::string> lineage;  ///< files from the first model to this one (overlays)
   Skeleton skeleton;
@@ -134,7 +134,8 @@ struct Model {
   int body_index(const std::string& name) const;  ///< -1
   /// Names of the places where a law may sit, in file order.
   std::vector<std::string> places(effects::Place place) const;
-  /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear coordinates.
+  /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear
+  /// coordinates.
   bool place_is_angular(effects::Place place, const std::string& at) const;
   /// The place type that `at` has for this law (first of the law's places where the name is known).
   /// Throws InputError with the nearest names when there is none.

@@ -13,7 +13,8 @@ TEST(BoxLeastSquares, InsideTheBoxItSolvesTheNormalEquations) {
   Eigen::MatrixXd H(2, 2);
   H << 4e6, 1e6, 1e6, 3e6;
   const Eigen::Vector2d wanted(0.5, -2.0);
-  const Eigen::VectorXd d = box_least_squares(H, H * wanted, Eigen::Vector2d(-kFar, -kFar), Eigen::Vector2d(kFar, kFar));
+  const Eigen::VectorXd d =
+      box_least_squares(H, H * wanted, Eigen::Vector2d(-kFar, -kFar), Eigen::Vector2d(kFar, kFar));
   // The weak prior pulls by its precision over the data's: 1e-2 / 1e6.
   EXPECT_NEAR(d[0], wanted[0], 1e-7);
   EXPECT_NEAR(d[1], wanted[1], 1e-7);
@@ -32,8 +33,8 @@ TEST(BoxLeastSquares, OnTheBoundTheOtherUnknownsTakeOver) {
 TEST(BoxLeastSquares, UnseenUnknownsStayWhereTheyAre) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, 2);
   H(0, 0) = 1e6;
-  const Eigen::VectorXd d =
-      box_least_squares(H, Eigen::Vector2d(1e6, 1e-9), Eigen::Vector2d(-kFar, -kFar), Eigen::Vector2d(kFar, kFar));
+  const Eigen::VectorXd d = box_least_squares(H, Eigen::Vector2d(1e6, 1e-9), Eigen::Vector2d(-kFar, -kFar),
+                                              Eigen::Vector2d(kFar, kFar));
   EXPECT_NEAR(d[0], 1.0, 1e-6);
   EXPECT_NEAR(d[1], 0.0, 1e-6);
 }

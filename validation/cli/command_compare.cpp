@@ -53,8 +53,9 @@ void print(const Comparison& comparison) {
                     w.worst_channel});
   }
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
-  fmt::print("\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
-             comparison.scores.train, comparison.scores.held_out);
+  fmt::print(
+      "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
+      comparison.scores.train, comparison.scores.held_out);
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ void add_compare(CLI::App& app, Outcome& /*outcome*/) {
   auto inputs = std::make_shared<Inputs>();
   CLI::App* command = app.add_subcommand("compare", "Where the model fails: per channel and time window");
   add_trial_inputs(*command, *inputs);
-  command->footer("Example:\n  plumbline compare demo/siso_mLA demo/mimo --model robots/mabel/leg_bench.yaml");
+  command->footer(
+      "Example:\n  plumbline compare demo/siso_mLA demo/mimo --model robots/mabel/leg_bench.yaml");
   command->callback([inputs] {
     const Loaded loaded = load(*inputs, catalogue_for(*inputs));
     const Comparison comparison = validation::compare(loaded.model, *loaded.data);

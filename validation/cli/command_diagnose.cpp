@@ -18,9 +18,12 @@ using validation::RankRow;
 using validation::Verdict;
 
 nlohmann::json to_json(const RankRow& row) {
-  return {{"effect", row.effect},     {"at", row.at},
-          {"score", row.score},       {"held_out_after", row.held_out_after},
-          {"train_after", row.train_after}, {"refitted", row.refitted},
+  return {{"effect", row.effect},
+          {"at", row.at},
+          {"score", row.score},
+          {"held_out_after", row.held_out_after},
+          {"train_after", row.train_after},
+          {"refitted", row.refitted},
           {"remark", row.remark}};
 }
 
@@ -71,12 +74,19 @@ nlohmann::json to_json(const Diagnosis& diagnosis) {
 using validation::UnexplainedForce;
 
 nlohmann::json to_json(const UnexplainedForce& force) {
-  nlohmann::json json{{"trial", force.trial}, {"motor", force.motor}, {"unit", force.unit},
-                      {"rms", force.rms},     {"relative", force.relative}, {"words", force.words},
+  nlohmann::json json{{"trial", force.trial},
+                      {"motor", force.motor},
+                      {"unit", force.unit},
+                      {"rms", force.rms},
+                      {"relative", force.relative},
+                      {"words", force.words},
                       {"dependences", nlohmann::json::array()}};
   for (const validation::Dependence& d : force.dependences) {
-    json["dependences"].push_back({{"variable", d.variable}, {"unit", d.unit}, {"share", d.share},
-                                   {"center", d.center}, {"mean", d.mean}});
+    json["dependences"].push_back({{"variable", d.variable},
+                                   {"unit", d.unit},
+                                   {"share", d.share},
+                                   {"center", d.center},
+                                   {"mean", d.mean}});
   }
   return json;
 }
@@ -93,8 +103,8 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
     for (const validation::Dependence& d : f.dependences) {
       shares += fmt::format("{} {:.0f} %  ", d.variable, 100.0 * d.share);
     }
-    rows.push_back({f.trial, f.motor, fmt::format("{:.3g} {}", f.rms, f.unit), fmt::format("{:.1f} %", 100.0 * f.relative),
-                    f.words, shares});
+    rows.push_back({f.trial, f.motor, fmt::format("{:.3g} {}", f.rms, f.unit),
+                    fmt::format("{:.1f} %", 100.0 * f.relative), f.words, shares});
   }
   print_table({"trial", "motor", "rms", "of the force", "it", "share of its variance that follows"}, rows);
 }
@@ -109,24 +119,35 @@ void print_verdict(const Diagnosis& diagnosis) {
   }
   const validation::Rung& first = diagnosis.ladder.front();
   const validation::Rung& last = diagnosis.ladder.back();
+  if (diagnosis.interrupted && diagnosis.accepted.empty()) {
+    fmt::print("No effect had been accepted yet; the held-out error so far is {:.2f} times the floor.\n",
+               last.held_out());
+    return;
+  }
   switch (diagnosis.verdict) {
     case Verdict::nothing_missing:
-      fmt::print("Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
-                 "alone would leave.\n", last.held_out());
+      fmt::print(
+          "Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
+          "alone would leave.\n",
+          last.held_out());
       return;
     case Verdict::unexplained:
-      fmt::print("Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
-                 "explains it.{}\n", last.held_out(),
-                 diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
+      fmt::print(
+          "Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
+          "explains it.{}\n",
+          last.held_out(),
+          diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
       break;
     case Verdict::missing:
       break;
   }
   for (const Finding& finding : diagnosis.accepted) {
-    fmt::print("{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
-               "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
-               diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, finding.held_out_before, finding.held_out_after, finding.train_before,
-               finding.train_after, 100.0 * finding.selected_share);
+    fmt::print(
+        "{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
+        "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
+        diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at,
+        finding.held_out_before, finding.held_out_after, finding.train_before, finding.train_after,
+        100.0 * finding.selected_share);
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
       fmt::print("  {} = {:.4g} +- {:.2g} {}\n", p.name, p.value, p.deviation, p.unit);
@@ -142,17 +163,18 @@ void print_verdict(const Diagnosis& diagnosis) {
   if (diagnosis.accepted.empty()) {
     return;
   }
-  fmt::print("In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
-             "above the floor stays unexplained.\n",
-             first.held_out(), last.held_out(), 100.0 * diagnosis.unexplained_share);
+  fmt::print(
+      "In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
+      "above the floor stays unexplained.\n",
+      first.held_out(), last.held_out(), 100.0 * diagnosis.unexplained_share);
 }
 
 void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < std::min(most, ranking.size()); ++i) {
     const RankRow& r = ranking[i];
-    rows.push_back({r.effect, r.at, fmt::format("{:.3f}", r.train_after), fmt::format("{:.3f}", r.held_out_after),
-                    r.refitted ? "refitted" : "promised", r.remark});
+    rows.push_back({r.effect, r.at, fmt::format("{:.3f}", r.train_after),
+                    fmt::format("{:.3f}", r.held_out_after), r.refitted ? "refitted" : "promised", r.remark});
   }
   print_table({"effect", "at", "train", "held-out", "", "remark"}, rows);
 }
@@ -188,8 +210,8 @@ void save_model(const Diagnosis& diagnosis, const std::string& base, const std::
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
     const auto& parameter = stage.parameters[p];
     if (parameter.id.effect < static_cast<int>(own)) {
-      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)], 0.0, parameter.unit,
-                        "diagnose"});
+      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)], 0.0,
+                        parameter.unit, "diagnose"});
     }
   }
   model::write_overlay(file, base, added, values, "written by plumbline diagnose");
@@ -210,7 +232,8 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       ->type_name("EFFECT");
   command->add_option("--save", options->save, "write the model with what was found as an overlay")
       ->type_name("FILE");
-  command->add_option("--most", options->diagnose.most_effects, "most effects to accept")->capture_default_str();
+  command->add_option("--most", options->diagnose.most_effects, "most effects to accept")
+      ->capture_default_str();
   command->add_option("--refits", options->diagnose.refits, "candidates refitted in each round")
       ->capture_default_str();
   command->add_option("--seed", options->diagnose.seed, "seed of the resampling")->capture_default_str();

@@ -56,12 +56,14 @@ void run(const TwinInputs& inputs) {
 
 void add_twin(CLI::App& app, Outcome& /*outcome*/) {
   auto inputs = std::make_shared<TwinInputs>();
-  CLI::App* command =
-      app.add_subcommand("twin", "Synthetic measurements from a model, with its sensors' quantisation and noise");
+  CLI::App* command = app.add_subcommand(
+      "twin", "Synthetic measurements from a model, with its sensors' quantisation and noise");
   command->add_option("model", inputs->model, "model file")->required()->type_name("MODEL");
   command->add_option("--with", inputs->with, "effect to hide in the data: EFFECT@WHERE:param=value,...")
       ->type_name("EFFECT");
-  command->add_option("--experiment", inputs->experiments, "experiment files: what to command, from where, how long")
+  command
+      ->add_option("--experiment", inputs->experiments,
+                   "experiment files: what to command, from where, how long")
       ->required()
       ->type_name("FILE");
   command->add_option("-o,--out", inputs->out, "folder for the trials, one folder for each experiment")
@@ -74,7 +76,8 @@ void add_twin(CLI::App& app, Outcome& /*outcome*/) {
       ->capture_default_str();
   add_json_option(*command, inputs->json);
   command->footer(
-      "Example:\n  plumbline twin robots/mabel/leg_bench.yaml --with cable_stretch@leg_angle:stiffness=3.5,damping=0.09 "
+      "Example:\n  plumbline twin robots/mabel/leg_bench.yaml --with "
+      "cable_stretch@leg_angle:stiffness=3.5,damping=0.09 "
       "--experiment robots/mabel/experiments/siso_mLA.yaml -o twin");
   command->callback([inputs] { run(*inputs); });
 }

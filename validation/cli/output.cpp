@@ -71,7 +71,8 @@ void ProgressLine::show(const std::string& what, double fraction) {
   const double spent = std::chrono::duration<double>(now - start_).count();
   const double part = std::chrono::duration<double>(now - part_start_).count();
   const std::string left =
-      fraction > 0.05 ? fmt::format(", about {:.0f} s left in this step", part * (1.0 - fraction) / fraction) : "";
+      fraction > 0.05 ? fmt::format(", about {:.0f} s left in this step", part * (1.0 - fraction) / fraction)
+                      : "";
   fmt::print(stderr, "\r\033[K[{:.0f} s] {}{}", spent, what, left);
   std::fflush(stderr);
 }

@@ -6,7 +6,8 @@
 namespace plumbline::validation {
 namespace {
 
-std::vector<ChannelError> channel_errors(const model::Model& model, const Data& data, const Estimate& estimate) {
+std::vector<ChannelError> channel_errors(const model::Model& model, const Data& data,
+                                         const Estimate& estimate) {
   std::vector<ChannelError> errors;
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     const Trial& trial = data.trials[t];

@@ -116,7 +116,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> joined_places(mode
   std::vector<std::pair<std::string, std::vector<std::string>>> joined;
   std::vector<Eigen::VectorXd> directions;
   std::vector<Place> order = law.declaration().places;
-  std::sort(order.begin(), order.end(), [](Place a, Place b) { return a == Place::motor && b != Place::motor; });
+  std::sort(order.begin(), order.end(),
+            [](Place a, Place b) { return a == Place::motor && b != Place::motor; });
   for (const Place place : order) {
     *type = place;
     for (const std::string& at : plant.model().places(place)) {
@@ -161,7 +162,8 @@ bool is_fixed_body(const model::Skeleton& skeleton, const std::string& name) {
 }  // namespace
 
 std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
-                                       const std::vector<FreeParameter>& parameters, const Estimate& estimate) {
+                                       const std::vector<FreeParameter>& parameters,
+                                       const Estimate& estimate) {
   const model::Model& model = pool.model();
   model::Plant plant(model, {});
   PlaceMotions motions(pool, parameters, estimate);

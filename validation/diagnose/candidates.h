@@ -22,7 +22,8 @@ struct Candidate {
 /// ties together (motor and its coordinate) are one candidate, named by the motor.
 /// `estimate` gives the motion of the train windows under the model.
 std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
-                                       const std::vector<FreeParameter>& parameters, const Estimate& estimate);
+                                       const std::vector<FreeParameter>& parameters,
+                                       const Estimate& estimate);
 
 /// A use of the candidate's law with these values.
 model::EffectUse make_use(const Candidate& candidate, const effects::Values& values);

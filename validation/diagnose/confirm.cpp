@@ -1,11 +1,10 @@
 #include "validation/diagnose/confirm.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include <Eigen/LU>
 
 namespace plumbline::validation {
 namespace {
@@ -25,8 +24,8 @@ Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypot
   return theta;
 }
 
-Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis, const Data& data,
-                int iterations) {
+Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                const Data& data, int iterations) {
   Refit result;
   result.candidate = hypothesis.candidate;
   result.extended = extend(stage, candidate, hypothesis.start);
@@ -43,7 +42,7 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
 void continue_refit(Refit& refit, const Data& data, int iterations) {
   PredictorPool pool(refit.extended.model, data);
   refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
-                            {iterations, 2e-3});
+                                {iterations, 2e-3});
   refit.extended.theta = refit.estimate.theta;
 }
 
@@ -142,14 +141,16 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       continue;
     }
   }
-  std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  std::sort(refits.begin(), refits.end(),
+            [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
   for (Refit& one : refits) {
     if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
       progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
       continue_refit(one, data, 8);
     }
   }
-  std::sort(refits.begin(), refits.end(), [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  std::sort(refits.begin(), refits.end(),
+            [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
   return refits;
 }
 
@@ -192,9 +193,12 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   const Scores& after = refit.estimate.scores;
   const bool judged = data.has(Role::held_out);
   const double fall = judged ? 1.0 - after.held_out / before.held_out : 1.0 - after.train / before.train;
-  const auto percent = [](double value) { return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %"; };
+  const auto percent = [](double value) {
+    return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %";
+  };
   if (fall < options.material) {
-    return std::string("immaterial: ") + (judged ? "held-out" : "train") + " error falls by only " + percent(fall);
+    return std::string("immaterial: ") + (judged ? "held-out" : "train") + " error falls by only " +
+           percent(fall);
   }
   if (judged && 1.0 - after.train / before.train < 0.5 * options.material) {
     return "train error hardly falls";

@@ -15,7 +15,8 @@ struct Refit {
   Estimate estimate;
   int own = 0;  ///< number of the candidate's own parameters (the last ones)
   double square() const {
-    return estimate.scores.train * estimate.scores.train + estimate.scores.held_out * estimate.scores.held_out;
+    return estimate.scores.train * estimate.scores.train +
+           estimate.scores.held_out * estimate.scores.held_out;
   }
 };
 

@@ -35,7 +35,8 @@ std::vector<RankRow> rank(const std::vector<Candidate>& candidates, const std::v
     if (!done[c]) {
       done[c] = true;
       rows.push_back({candidates[c].law->declaration().name, candidates[c].at, hypothesis.promised(),
-                      std::sqrt(hypothesis.promised_held_out), std::sqrt(hypothesis.promised_train), false, ""});
+                      std::sqrt(hypothesis.promised_held_out), std::sqrt(hypothesis.promised_train), false,
+                      ""});
     }
   }
   return rows;
@@ -122,8 +123,7 @@ class Diagnoser {
     const double before = judged(base, data_);
     const double after = judged(diagnosis.final_stage.estimate.scores, data_);
     const double excess = before * before - 1.0;
-    diagnosis.unexplained_share =
-        excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
+    diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
     if (diagnosis.accepted.empty()) {
       diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
     } else {
@@ -143,12 +143,13 @@ class Diagnoser {
     PredictorPool pool(model, data_);
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-3});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
-    stage.parameters = stated_parameters(model, options_.parameter_width);
     stage.estimate = given;
-    if (!stage.parameters.empty()) {
+    // The stage changes as a whole: an interruption must not leave parameters without their values.
+    const std::vector<FreeParameter> own = stated_parameters(model, options_.parameter_width);
+    if (!own.empty()) {
       progress_("the model's own parameters", 0.5);
-      stage.estimate =
-          gauss_newton(pool, stage.parameters, values_of(model, stage.parameters), given.x0, {10, 1e-3});
+      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-3});
+      stage.parameters = own;
       diagnosis.ladder.push_back({"own parameters fitted", stage});
     }
   }
@@ -194,7 +195,8 @@ class Diagnoser {
     }
     std::stable_sort(near.begin(), near.end(),
                      [&](std::size_t a, std::size_t b) { return refits[a].own < refits[b].own; });
-    const auto named = std::find_if(near.begin(), near.end(), [&](std::size_t i) { return rows[i].remark.empty(); });
+    const auto named =
+        std::find_if(near.begin(), near.end(), [&](std::size_t i) { return rows[i].remark.empty(); });
     if (named == near.end()) {
       return false;
     }
@@ -224,9 +226,9 @@ class Diagnoser {
       const Candidate& rival = candidates[static_cast<std::size_t>(refits[i].candidate)];
       finding.rivals.push_back({rival.law->declaration().name, rival.at});
     }
-    diagnosis.final_stage = {with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
-                             refit.extended.parameters, refit.estimate};
-    PredictorPool pool(diagnosis.final_stage.model, data_);
+    const Stage next{with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
+                     refit.extended.parameters, refit.estimate};
+    PredictorPool pool(next.model, data_);
     const Eigen::VectorXd deviations =
         parameter_deviations(pool, refit.extended.parameters, refit.estimate, nullptr);
     for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
@@ -236,6 +238,7 @@ class Diagnoser {
       finding.parameters.push_back({label.substr(label.find(':') + 1), refit.extended.parameters[p].unit,
                                     refit.estimate.theta[i], deviations[i]});
     }
+    diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
     diagnosis.accepted.push_back(finding);
     diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
   }
@@ -248,12 +251,12 @@ class Diagnoser {
       progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
       Stage without = without_effect(stage, effect);
       PredictorPool pool(without.model, data_);
-      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters), {},
-                                      {10, 1e-3});
-      const double rise =
-          judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
+      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
+                                      {}, {10, 1e-3});
+      const double rise = judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
       if (rise < options_.material) {
-        diagnosis.ladder.push_back({"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
+        diagnosis.ladder.push_back(
+            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
         diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
         stage = without;
       } else {

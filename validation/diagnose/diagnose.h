@@ -9,15 +9,15 @@
 namespace plumbline::validation {
 
 struct DiagnoseOptions {
-  int most_effects = 4;            ///< rounds of acceptance
-  int refits = 6;                  ///< candidates that are refitted in each round
-  double material = 0.05;          ///< least relative fall of the held-out error
-  double stable = 0.7;             ///< least share of resamples that choose the effect (or a rival)
-  double at_floor = 1.05;          ///< error at which nothing is left to explain
-  double finished = 1.5;           ///< error below which what was named is an answer
-  double consistent = 0.35;        ///< relative disagreement of a parameter between train and held-out
-  double parameter_width = 2.0;    ///< stated standard deviations that the model's own parameters may move
-  std::size_t windows = 24;        ///< of each role on which candidates are tried; results are for all windows
+  int most_effects = 4;          ///< rounds of acceptance
+  int refits = 6;                ///< candidates that are refitted in each round
+  double material = 0.05;        ///< least relative fall of the held-out error
+  double stable = 0.7;           ///< least share of resamples that choose the effect (or a rival)
+  double at_floor = 1.05;        ///< error at which nothing is left to explain
+  double finished = 1.5;         ///< error below which what was named is an answer
+  double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
+  double parameter_width = 2.0;  ///< stated standard deviations that the model's own parameters may move
+  std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;
   unsigned seed = 1;
 };
@@ -45,11 +45,11 @@ struct Finding {
 
 struct RankRow {
   std::string effect, at;
-  double score = 0.0;           ///< mean square of train and held-out together with this effect added, floor units
+  double score = 0.0;  ///< mean square of train and held-out together with this effect added, floor units
   double held_out_after = 0.0;
   double train_after = 0.0;
-  bool refitted = false;        ///< false: promised by the linearisation only
-  std::string remark;           ///< why it was not accepted
+  bool refitted = false;  ///< false: promised by the linearisation only
+  std::string remark;     ///< why it was not accepted
 };
 
 struct Rung {
@@ -71,7 +71,7 @@ struct Diagnosis {
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened
   bool interrupted = false;
-  Stage final_stage;               ///< model with everything accepted, its parameters and estimate
+  Stage final_stage;  ///< model with everything accepted, its parameters and estimate
 };
 
 /// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.

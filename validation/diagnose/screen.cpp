@@ -22,7 +22,8 @@ struct Sum {
   double samples = 0.0;
 };
 
-Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows, const Data& data, Role role) {
+Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows, const Data& data,
+           Role role) {
   Sum sum;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const auto w = static_cast<std::size_t>(windows[i]);
@@ -77,9 +78,8 @@ Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& 
 }
 
 bool moves_prediction(const Sum& train, const std::vector<Eigen::Index>& own) {
-  return std::any_of(own.begin(), own.end(), [&](Eigen::Index i) {
-    return train.H(i, i) > 1e-6 && std::isfinite(train.H(i, i));
-  });
+  return std::any_of(own.begin(), own.end(),
+                     [&](Eigen::Index i) { return train.H(i, i) > 1e-6 && std::isfinite(train.H(i, i)); });
 }
 
 /// Windows for the costly starts: enough to tell, spread over the trials.
@@ -103,9 +103,8 @@ std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Ca
     const Candidate& candidate = candidates[static_cast<std::size_t>(all[h].candidate)];
     model.effects.push_back(make_use(candidate, all[h].start));
     const bool angular = model.place_is_angular(candidate.place, candidate.at);
-    for (FreeParameter& parameter :
-         free_parameters_of(model.effects.back(), static_cast<int>(model.effects.size()) - 1, candidate.scales,
-                            angular)) {
+    for (FreeParameter& parameter : free_parameters_of(
+             model.effects.back(), static_cast<int>(model.effects.size()) - 1, candidate.scales, angular)) {
       own[h].push_back(static_cast<Eigen::Index>(parameters.size()));
       parameters.push_back(std::move(parameter));
     }
@@ -208,7 +207,8 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   const std::vector<int> windows = thinned(data);
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
-    progress("screening " + candidate.label(), static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
+    progress("screening " + candidate.label(),
+             static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
     try {
       screen_start(stage, candidates, starts[s], data, windows);
       if (std::isfinite(starts[s].promised())) {

@@ -21,11 +21,11 @@ struct Stage {
 struct Hypothesis {
   int candidate = 0;
   effects::Values start;
-  double promised_train = 0.0;     ///< mean squares in floor units (1: the floor)
+  double promised_train = 0.0;  ///< mean squares in floor units (1: the floor)
   double promised_held_out = 0.0;
-  Eigen::VectorXd step;            ///< promised change: stage parameters, then the candidate's (search units)
-  std::vector<Eigen::VectorXd> x0; ///< promised initial states; empty where the state has grown
-  bool tangent = true;             ///< linearised at the null value; otherwise at `start`
+  Eigen::VectorXd step;  ///< promised change: stage parameters, then the candidate's (search units)
+  std::vector<Eigen::VectorXd> x0;  ///< promised initial states; empty where the state has grown
+  bool tangent = true;              ///< linearised at the null value; otherwise at `start`
   double promised() const { return promised_train + promised_held_out; }
 };
 

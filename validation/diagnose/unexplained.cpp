@@ -67,15 +67,16 @@ UnexplainedForce analyse(const NeededForce& force, const Trial& trial, bool angu
   out.rms = std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
   out.relative = left.norm() / std::max(force.recorded.norm(), 1e-300);
   const std::string x = angular ? "rad" : "m";
-  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
-      left.size(), 0.0, static_cast<double>(left.size()) * trial.period);
+  const Eigen::VectorXd time =
+      Eigen::VectorXd::LinSpaced(left.size(), 0.0, static_cast<double>(left.size()) * trial.period);
   out.dependences = {depend("position", x, force.position, left, bins),
                      depend("velocity", x + "/s", force.velocity, left, bins),
                      depend("direction", "1", force.velocity.array().sign().matrix(), left, 2),
                      depend("load", force.unit, force.recorded, left, bins),
                      depend("time", "s", time, left, bins)};
   if (angular) {
-    const Eigen::VectorXd turn = force.position.unaryExpr([](double q) { return q - kTurn * std::floor(q / kTurn); });
+    const Eigen::VectorXd turn =
+        force.position.unaryExpr([](double q) { return q - kTurn * std::floor(q / kTurn); });
     out.dependences.push_back(depend("motor angle", "rad", turn, left, 4 * bins));
   }
   std::stable_sort(out.dependences.begin(), out.dependences.end(),

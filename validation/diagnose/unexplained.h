@@ -12,17 +12,17 @@ namespace plumbline::validation {
 struct Dependence {
   std::string variable;  ///< "position", "velocity", "direction", "load", "time", "motor angle"
   std::string unit;
-  double share = 0.0;    ///< of the force's variance that the bins' means explain
+  double share = 0.0;  ///< of the force's variance that the bins' means explain
   std::vector<double> center, mean;
 };
 
 struct UnexplainedForce {
   std::string trial, motor, unit;
   Role role = Role::train;
-  double rms = 0.0;        ///< recorded minus needed force, low-passed
-  double relative = 0.0;   ///< rms / rms of the recorded force
+  double rms = 0.0;                     ///< recorded minus needed force, low-passed
+  double relative = 0.0;                ///< rms / rms of the recorded force
   std::vector<Dependence> dependences;  ///< strongest first
-  std::string words;       ///< the strongest dependence in words
+  std::string words;                    ///< the strongest dependence in words
 };
 
 /// For every trial and motor for which the inverse model exists (no hidden states, every position measured).

@@ -80,9 +80,8 @@ class WindowCost : public ceres::CostFunction {
     }
     bool fine = true;
     try {
-      pool_.with(window_, parameters_, theta, [&](Predictor& predictor) {
-        fine = fill(predictor, theta, x0, residuals, jacobians);
-      });
+      pool_.with(window_, parameters_, theta,
+                 [&](Predictor& predictor) { fine = fill(predictor, theta, x0, residuals, jacobians); });
     } catch (const Stopped&) {
       return false;
     } catch (const std::runtime_error&) {
@@ -199,8 +198,8 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
   auto order = std::make_shared<ceres::ParameterBlockOrdering>();
   std::vector<std::unique_ptr<WindowCost>> costs(windows.size());
   parallel_for(static_cast<int>(windows.size()), pool.data().threads, [&](int i) {
-    costs[static_cast<std::size_t>(i)] = std::make_unique<WindowCost>(pool, windows[static_cast<std::size_t>(i)],
-                                                                      parameters, units, theta);
+    costs[static_cast<std::size_t>(i)] =
+        std::make_unique<WindowCost>(pool, windows[static_cast<std::size_t>(i)], parameters, units, theta);
   });
   // Ceres eliminates blocks in the order of their addresses: in one array they are in the windows' order.
   Eigen::Index all = 0;
@@ -339,7 +338,8 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
   result.iterations = static_cast<int>(summary.iterations.size());
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   if (data.has(Role::held_out)) {
-    solve(pool, data.windows_of(Role::held_out), parameters, Eigen::VectorXd(), result.theta, result.x0, options);
+    solve(pool, data.windows_of(Role::held_out), parameters, Eigen::VectorXd(), result.theta, result.x0,
+          options);
   }
   result.square = squares(pool, parameters, result.theta, result.x0);
   result.scores = score(data, result.square);

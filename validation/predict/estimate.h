@@ -52,11 +52,11 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
 struct Reduced {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
-  double sse = 0.0;          ///< after the initial state has moved
-  double raw_sse = 0.0;      ///< before
-  Eigen::VectorXd square;    ///< sse by channel
-  Eigen::VectorXd x_shift;   ///< change of the initial state at delta = 0
-  Eigen::MatrixXd x_slope;   ///< its change with delta: x0 + x_shift - x_slope delta
+  double sse = 0.0;         ///< after the initial state has moved
+  double raw_sse = 0.0;     ///< before
+  Eigen::VectorXd square;   ///< sse by channel
+  Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
+  Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta
 };
 
 /// One for each window in `windows`; columns are d/d(search)/unit.

@@ -15,7 +15,7 @@ struct Point {
 };
 
 struct Step {
-  Eigen::VectorXd delta;         // parameters, search units
+  Eigen::VectorXd delta;           // parameters, search units
   std::vector<Eigen::VectorXd> x;  // change of each initial state
 };
 
@@ -119,7 +119,8 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
       const Point there = moved(here, step, share, parameters, units);
       try {
         std::vector<Reduced> next = passes.reduce_at(there, units);
-        if (is_finite(next) && train_cost(data, next) < train_cost(data, reduced) * (1.0 + options.tolerance)) {
+        if (is_finite(next) &&
+            train_cost(data, next) < train_cost(data, reduced) * (1.0 + options.tolerance)) {
           here = there;
           reduced = std::move(next);
           better = true;

@@ -42,8 +42,9 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
     const Trial& trial = trials[t];
     const auto length = static_cast<Eigen::Index>(std::lround(options.window / trial.period));
     if (trial.samples() < length) {
-      throw InputError({trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
-                       "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
+      throw InputError(
+          {trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
+          "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
     }
     const std::vector<Eigen::Index> cuts = cut_points(trial);
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
@@ -217,8 +218,8 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, const std::vect
   commands_->mean(window.first + k, command.data(), slope.data());
   const Eigen::VectorXd middle = 0.5 * (states_.col(k) + states_.col(k + 1));
   const Eigen::VectorXd change = states_.col(k + 1) - states_.col(k);
-  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), trial_.period}, ids, steps, refresh,
-                 A, B);
+  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), trial_.period}, ids, steps,
+                 refresh, A, B);
 }
 
 // Sensitivities S' = A S + B along the predicted motion, over each sample with A and B of its middle:

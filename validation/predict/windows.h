@@ -21,9 +21,9 @@ struct Window {
 };
 
 struct PredictOptions {
-  double window = 0.5;             ///< s
+  double window = 0.5;  ///< s
   double relative_tolerance = 1e-5;
-  int refresh = 8;                 ///< samples between refreshes of the rigid linearisation
+  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
@@ -33,7 +33,7 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
 /// One parameter that may move.
 struct FreeParameter {
   model::ParameterId id;
-  std::string label;       ///< "viscous@mLA:damping"
+  std::string label;  ///< "viscous@mLA:damping"
   std::string unit;
   effects::Scale scale = effects::Scale::linear;
   double lower = 0.0, upper = 0.0;  ///< in the parameter's own unit

@@ -17,8 +17,8 @@ model::EffectUse parse_effect(const std::string& text, const model::Model& model
                               const effects::Catalogue& catalogue);
 
 struct TwinOptions {
-  std::uint64_t seed = 1;                 ///< of the sensors' noise
-  double relative_tolerance = 1e-9;       ///< tighter than what diagnosis uses
+  std::uint64_t seed = 1;            ///< of the sensors' noise
+  double relative_tolerance = 1e-9;  ///< tighter than what diagnosis uses
   bool quantise = true;
 };
 
