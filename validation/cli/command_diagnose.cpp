@@ -248,7 +248,8 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
           validation::diagnose(loaded.model, catalogue, *loaded.data, options->diagnose, progress.callback());
     }
     std::vector<UnexplainedForce> left;
-    if (!diagnosis.interrupted && diagnosis.unexplained_share > 0.02) {
+    if (!diagnosis.interrupted &&
+        (diagnosis.unexplained_share > 0.02 || diagnosis.verdict == Verdict::unexplained)) {
       const auto& stage = diagnosis.final_stage;
       left = validation::unexplained_forces(
           validation::with_values(stage.model, stage.parameters, stage.estimate.theta), *loaded.data);
