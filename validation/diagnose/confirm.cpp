@@ -98,7 +98,6 @@ double disagreement(const Refit& refit, const Data& data) {
     H += one.H;
     g += one.g;
   }
-  (void)n;
   // Along the best-determined direction of the law: how strong the held-out motion wants the whole law.
   Eigen::VectorXd direction(refit.own);
   for (int p = 0; p < refit.own; ++p) {

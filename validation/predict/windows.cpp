@@ -130,7 +130,7 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   const Eigen::MatrixXd z = C.completeOrthogonalDecomposition().solve(y);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
   x.head(nz) = z.col(0);
-  x.segment(nz, nz) = z.col(1) / 1.0;
+  x.segment(nz, nz) = z.col(1);
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
   plant_.settle(command.data(), x.data());
