@@ -28,8 +28,9 @@ Values ActuatorLag::typical(const Scales& scales) const {
   return {s.position / s.velocity};
 }
 
-std::vector<Values> ActuatorLag::starts(const Scales& /*scales*/) const {
-  return {{0.003}, {0.01}};  // s: fast and slow current loops
+std::vector<Values> ActuatorLag::starts(const Scales& scales) const {
+  const double period = guarded(scales).period;
+  return {{0.3 * period}, {3.0 * period}, {10.0 * period}};  // current loops from fast to slow
 }
 
 double ActuatorLag::torque(double commanded, const double* state, const double* p) const {

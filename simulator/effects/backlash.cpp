@@ -33,8 +33,7 @@ const Declaration& Backlash::declaration() const {
       "Nordin and Gutman, Controlling mechanical systems with backlash: a survey, Automatica 38, 2002",
       {Place::ratio},
       {non_negative("gap", "{position}", "free play of the motor, from contact to contact"),
-       fixed("stiffness", "{force}/{position}", "stiffness of the contact", 1e3, kSmallestPositive,
-             kInfinity),
+       positive("stiffness", "{force}/{position}", "stiffness of the contact", 1e3),
        fixed("damping", "{force} s/{position}", "damping of the contact", 0.3, 0.0, kInfinity)},
       {},
       ""};
@@ -50,7 +49,8 @@ Values Backlash::typical(const Scales& scales) const {
 std::vector<Values> Backlash::starts(const Scales& scales) const {
   const Values at_contact = typical(scales);
   std::vector<Values> grid;
-  for (const double share : {0.02, 0.1, 0.3}) {
+  // From play that the finest encoders just see to play as wide as the motion.
+  for (const double share : {3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3}) {
     Values p = at_contact;
     p[kGap] = share * guarded(scales).position;
     grid.push_back(p);

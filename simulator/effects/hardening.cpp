@@ -18,7 +18,7 @@ const Declaration& Hardening::declaration() const {
       "f = -cubic_stiffness*(x - rest)^3",
       "Kovacic and Brennan, The Duffing Equation, 2011",
       {Place::coordinate},
-      {any("cubic_stiffness", "{force}/{position}^3", "cubic stiffness; negative: softens"), fixed_rest()},
+      {any("cubic_stiffness", "{force}/{position}^3", "cubic stiffness; negative: softens"), rest()},
       {},
       ""};
   return kDeclaration;
@@ -30,10 +30,10 @@ Values Hardening::typical(const Scales& scales) const {
 }
 
 std::vector<Values> Hardening::starts(const Scales& scales) const {
-  Values p = null_values();
-  p[kRest] = guarded(scales).center;
-  return {p};
+  return starts_at_rests(null_values(), kRest, scales, {-1.0, -0.3, 0.0, 0.3, 1.0});
 }
+
+bool Hardening::is_null(const double* p) const { return p[kCubicStiffness] == 0.0; }
 
 double Hardening::force(const Motion& m, const double* /*state*/, const double* p) const {
   const double d = m.position - p[kRest];

@@ -15,6 +15,7 @@ class Hardening final : public ForceLaw {
   const Declaration& declaration() const override;
   Values typical(const Scales& scales) const override;
   std::vector<Values> starts(const Scales& scales) const override;
+  bool is_null(const double* p) const override;
 
   double force(const Motion& m, const double* state, const double* p) const override;
   double stored_energy(const Motion& m, const double* state, const double* p) const override;

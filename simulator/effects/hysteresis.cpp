@@ -19,7 +19,7 @@ const Declaration& Hysteresis::declaration() const {
       "f = -loss*|x - rest|*tanh(v/smoothing_speed)",
       "Reid, Free vibration and hysteretic damping, J. Royal Aeronautical Society 60, 1956",
       {Place::coordinate},
-      {non_negative("loss", "{force}/{position}", "friction force per deflection"), fixed_rest(),
+      {non_negative("loss", "{force}/{position}", "friction force per deflection"), rest(),
        smoothing_speed()},
       {},
       ""};
@@ -34,9 +34,10 @@ Values Hysteresis::typical(const Scales& scales) const {
 std::vector<Values> Hysteresis::starts(const Scales& scales) const {
   Values p = null_values();
   p[kSmoothingSpeed] = smoothing_speed_for(scales);
-  p[kRest] = guarded(scales).center;
-  return {p};
+  return starts_at_rests(p, kRest, scales, {-1.0, -0.3, 0.0, 0.3, 1.0});
 }
+
+bool Hysteresis::is_null(const double* p) const { return p[kLoss] == 0.0; }
 
 double Hysteresis::force(const Motion& m, const double* /*state*/, const double* p) const {
   return -p[kLoss] * std::abs(m.position - p[kRest]) * smooth_sign(m.velocity, p[kSmoothingSpeed]);

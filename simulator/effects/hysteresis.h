@@ -15,6 +15,7 @@ class Hysteresis final : public DissipativeLaw {
   const Declaration& declaration() const override;
   Values typical(const Scales& scales) const override;
   std::vector<Values> starts(const Scales& scales) const override;
+  bool is_null(const double* p) const override;
 
   double force(const Motion& m, const double* state, const double* p) const override;
   void switches(const Motion& m, const double* p, std::vector<double>& g) const override;

@@ -63,13 +63,15 @@ Values LuGre::typical(const Scales& scales) const {
 std::vector<Values> LuGre::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
   std::vector<Values> grid;
-  for (const double share : {0.02, 0.1}) {  // presliding deflection as a share of the motion
-    Values p = null_values();
-    p[kLevel] = 0.1 * s.force;
-    p[kStribeckSpeed] = 0.1 * s.velocity;
-    p[kStiffness] = p[kLevel] / (share * s.position);
-    p[kBristleDamping] = std::sqrt(p[kStiffness] * s.inertia);  // half of critical damping while presliding
-    grid.push_back(p);
+  for (const double strength : {0.01, 0.1}) {
+    for (const double share : {0.02, 0.1, 0.4}) {  // presliding deflection as a share of the motion
+      Values p = null_values();
+      p[kLevel] = strength * s.force;
+      p[kStribeckSpeed] = 0.3 * s.velocity;
+      p[kStiffness] = p[kLevel] / (share * s.position);
+      p[kBristleDamping] = 0.2 * std::sqrt(p[kStiffness] * s.inertia);  // a tenth of critical damping
+      grid.push_back(p);
+    }
   }
   return grid;
 }

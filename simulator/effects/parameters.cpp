@@ -35,9 +35,7 @@ Parameter smoothing_speed() {
                kStandardSmoothingSpeed, kSmallestPositive, kInfinity);
 }
 
-Parameter fixed_rest() {
-  return fixed("rest", "{position}", "position from which the law measures", 0.0, -kInfinity, kInfinity);
-}
+Parameter rest() { return any("rest", "{position}", "position from which the law measures"); }
 
 Parameter fixed_side() {
   return fixed("side", "1", "+1: acts above the position, -1: acts below it", 1.0, -1.0, 1.0);
@@ -55,6 +53,17 @@ Scales guarded(const Scales& scales) {
 }
 
 double smoothing_speed_for(const Scales& scales) { return 0.002 * guarded(scales).velocity; }
+
+std::vector<Values> starts_at_rests(Values p, std::size_t rest, const Scales& scales,
+                                    const std::vector<double>& shares) {
+  const Scales s = guarded(scales);
+  std::vector<Values> starts;
+  for (const double share : shares) {
+    p[rest] = s.center + share * s.position;
+    starts.push_back(p);
+  }
+  return starts;
+}
 
 double smooth_sign(double v, double speed) {
   if (speed > 0.0) return std::tanh(v / speed);

@@ -1,8 +1,10 @@
 // Words for declaring the parameters of a law, and guards around the magnitudes of a trial.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "simulator/effects/law.h"
 
@@ -24,8 +26,8 @@ Parameter fixed(const std::string& name, const std::string& unit, const std::str
                 double lower, double upper);
 /// The speed below which the sign of a velocity is smoothed, {position}/s.
 Parameter smoothing_speed();
-/// A position from which a law measures: fixed, standard value 0.
-Parameter fixed_rest();
+/// A position from which a law measures: of no effect while the law has no strength; standard value 0.
+Parameter rest();
 /// +1 or -1: where the law acts, above or below a position.
 Parameter fixed_side();
 
@@ -35,6 +37,11 @@ Scales guarded(const Scales& scales);
 
 /// Sensible smoothing speed: 0.2 % of the root-mean-square velocity, {position}/s.
 double smoothing_speed_for(const Scales& scales);
+
+/// One start for each share: `p` with its rest that share of the motion's half range from the motion's
+/// center.
+std::vector<Values> starts_at_rests(Values p, std::size_t rest, const Scales& scales,
+                                    const std::vector<double>& shares);
 
 /// tanh(v / speed), a smooth sign(v); the sign itself when speed is not positive. (Andersson, Soderberg and
 /// Bjorklund, Tribology International 40, 2007, compare this form with others.)

@@ -19,7 +19,7 @@ const Declaration& Spring::declaration() const {
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equation 28 (term K_B)",
       {Place::coordinate},
-      {non_negative("stiffness", "{force}/{position}", "stiffness"), fixed_rest()},
+      {non_negative("stiffness", "{force}/{position}", "stiffness"), rest()},
       {},
       ""};
   return kDeclaration;
@@ -30,7 +30,11 @@ Values Spring::typical(const Scales& scales) const {
   return {s.force / s.position, s.position};
 }
 
-std::vector<Values> Spring::starts(const Scales& /*scales*/) const { return {null_values()}; }
+std::vector<Values> Spring::starts(const Scales& scales) const {
+  return starts_at_rests(null_values(), kRest, scales, {-2.0, -0.6, 0.0, 0.6, 2.0});
+}
+
+bool Spring::is_null(const double* p) const { return p[kStiffness] == 0.0; }
 
 double Spring::force(const Motion& m, const double* /*state*/, const double* p) const {
   return -p[kStiffness] * (m.position - p[kRest]);

@@ -348,6 +348,16 @@ std::vector<int> Plant::force_states() const {
   return indices;
 }
 
+std::vector<int> Plant::force_state_effects() const {
+  std::vector<int> effects;
+  for (const ForceSlot& slot : forces_) {
+    if (slot.state >= 0) {
+      effects.insert(effects.end(), static_cast<std::size_t>(slot.law->state_count()), slot.effect);
+    }
+  }
+  return effects;
+}
+
 double Plant::value(ParameterId id) const {
   return values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
 }

@@ -59,6 +59,8 @@ class Plant {
   std::vector<std::string> state_names() const;
   /// Indices in x of the hidden states of force laws (bristles).
   std::vector<int> force_states() const;
+  /// The effect that each of them belongs to.
+  std::vector<int> force_state_effects() const;
 
   /// Time derivative of the state for the commands that hold now (delayed already, in command units).
   void rate(const double* x, const double* command, double* xdot);
@@ -78,6 +80,11 @@ class Plant {
 
   /// Hidden states in equilibrium with the commands, written behind the positions and velocities of x.
   void settle(const double* command, double* x) const;
+
+  /// Hidden states of force laws (bristles) carried along a known motion from `from` to `to` in h seconds,
+  /// written behind the positions and velocities of x. By the exponential Euler method at the middle, each
+  /// state on its own (Hochbruck and Ostermann, Acta Numerica 19, 2010): stable for stiff bristles.
+  void carry_force_states(const double* from, const double* to, double h, double* x) const;
 
   /// Switching functions of all force laws.
   int switch_count() const { return switch_count_; }

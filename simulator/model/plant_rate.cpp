@@ -1,6 +1,7 @@
 // The equations of motion of a Plant.
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "simulator/model/plant.h"
 
@@ -108,6 +109,38 @@ void Plant::outputs(const double* x, double* y) const {
       reading = slot.law->reading(reading, values(slot.effect));
     }
     y[s] = reading;
+  }
+}
+
+void Plant::carry_force_states(const double* from, const double* to, double h, double* x) const {
+  for (const ForceSlot& slot : forces_) {
+    if (slot.state < 0 || !slot.active) {
+      continue;
+    }
+    const auto along = [&](const double* at) {
+      const Vector z(at, nz_);
+      const Vector w(at + nz_, nz_);
+      return std::make_pair(slot.line.offset + slot.line.reduced.dot(z), slot.line.reduced.dot(w));
+    };
+    const auto [q0, v0] = along(from);
+    const auto [q1, v1] = along(to);
+    const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), 0.0};
+    const int states = slot.law->state_count();
+    const double* p = values(slot.effect);
+    double* s = x + slot.state;
+    const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(s, states);
+    Eigen::VectorXd moved = before;
+    Eigen::VectorXd rate(states);
+    Eigen::VectorXd other(states);
+    slot.law->state_rate(middle, before.data(), p, rate.data());
+    for (int k = 0; k < states; ++k) {
+      const double step = 1e-6 * (1.0 + std::abs(before[k]));
+      moved[k] += step;
+      slot.law->state_rate(middle, moved.data(), p, other.data());
+      moved[k] = before[k];
+      const double reach = h * (other[k] - rate[k]) / step;
+      s[k] += h * rate[k] * (std::abs(reach) > 1e-8 ? std::expm1(reach) / reach : 1.0);
+    }
   }
 }
 

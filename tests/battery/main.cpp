@@ -18,6 +18,7 @@ struct Inputs {
   std::vector<std::string> only;
   std::size_t subset = 0;
   bool list = false;
+  bool explain = false;
   std::string json, csv;
 };
 
@@ -77,6 +78,9 @@ int run(const Inputs& inputs) {
   for (const Case& one : cases) {
     results.push_back(run_case(one, inputs.run));
     inputs.run.bare_only ? show_bare(results.back()) : fmt::print("{}\n", table_line(results.back()));
+    if (inputs.explain) {
+      fmt::print("{}", explanation(results.back()));
+    }
     std::fflush(stdout);
   }
   const Targets targets;
@@ -111,6 +115,7 @@ int main(int argc, char** argv) {
   app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
   app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");
   app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is");
+  app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--list", inputs.list, "only the names of the cases");
   try {
     app.parse(argc, argv);

@@ -135,6 +135,23 @@ std::string table_line(const Result& r) {
   return r.error.empty() ? line : line + "  " + r.error;
 }
 
+std::string explanation(const Result& result) {
+  std::string text;
+  const auto add = [&](const std::string& title, const std::vector<validation::RankRow>& rows) {
+    constexpr std::size_t kShown = 10;
+    for (std::size_t i = 0; i < std::min(rows.size(), kShown); ++i) {
+      const validation::RankRow& row = rows[i];
+      text += fmt::format("    {:<8} {:<34} {} train {:9.3f} held-out {:9.3f}  {}\n", i == 0 ? title : "",
+                          row.effect + "@" + row.at, row.refitted ? "refit  " : "promise", row.train_after,
+                          row.held_out_after, row.remark);
+    }
+  };
+  text += fmt::format("    hidden   {}\n", result.with);
+  add("ranking", result.ranking);
+  add("leads", result.leads);
+  return text;
+}
+
 std::string summary_text(const Summary& s, const Targets& t) {
   std::string text = fmt::format("{} hidden effects, {} visible (bare held-out error at least {} floors)\n",
                                  s.hidden, s.visible, kVisible);

@@ -31,6 +31,9 @@ bool targets_met(const Summary& summary, const Targets& targets);
 
 std::string table_head();
 std::string table_line(const Result& result);
+/// The candidates of the first round and those rejected in the last one, with why: for whoever improves the
+/// diagnosis.
+std::string explanation(const Result& result);
 std::string summary_text(const Summary& summary, const Targets& targets);
 
 /// Throw std::runtime_error when the file cannot be written.

@@ -6,7 +6,6 @@
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
 #include "validation/compare/compare.h"
-#include "validation/diagnose/diagnose.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::battery {
@@ -57,6 +56,8 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   result.after = diagnosis.final_stage.estimate.scores.held_out;
   result.before = result.after;
+  result.ranking = diagnosis.ranking;
+  result.leads = diagnosis.leads;
   result.right = (result.one.kind == Kind::none && diagnosis.accepted.empty()) ||
                  (result.one.kind == Kind::removed && diagnosis.verdict != validation::Verdict::missing);
   if (diagnosis.accepted.empty()) {
@@ -75,8 +76,9 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   for (const validation::Named& rival : first.rivals) {
     result.in_set = result.in_set || names(truth, rival.effect, rival.at);
   }
-  result.right = result.one.kind == Kind::hidden &&
-                 (named_first || (result.in_set && result.set_size <= 1 + kMostRivals));
+  if (result.one.kind == Kind::hidden) {
+    result.right = named_first || (result.in_set && result.set_size <= 1 + kMostRivals);
+  }
 }
 
 effects::Catalogue catalogue_of(const Case& one) {

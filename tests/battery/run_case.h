@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/battery/cases.h"
+#include "validation/diagnose/diagnose.h"
 
 namespace plumbline::battery {
 
@@ -27,7 +28,8 @@ struct Result {
   double before = 0.0;  ///< held-out error with the model's own parameters fitted
   double after = 0.0;   ///< held-out error with all that was accepted
   double seconds = 0.0;
-  std::string error;  ///< why the case could not be run; empty otherwise
+  std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected
+  std::string error;                                ///< why the case could not be run; empty otherwise
 };
 
 struct RunOptions {

@@ -239,6 +239,8 @@ std::vector<FreeParameter> stated_parameters(const model::Model& model, double w
       }
       parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
       parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
+      parameter.mean = quantity.value;
+      parameter.deviation = quantity.uncertainty;
       parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
       free.push_back(parameter);
     }

@@ -45,6 +45,11 @@ std::vector<RankRow> rank(const std::vector<Candidate>& candidates, const std::v
 /// Error of a refit that counts for choosing: train and held-out together.
 double together(const Refit& refit) { return std::sqrt(refit.square()); }
 
+/// How much a law takes for granted: its fitted parameters, then its choices and numerical constants.
+std::pair<int, int> complexity(const std::vector<Candidate>& candidates, const Refit& refit) {
+  return {refit.own, candidates[static_cast<std::size_t>(refit.candidate)].law->parameter_count()};
+}
+
 /// Refits that predict as well as the best to within what counts as material.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
   std::vector<std::size_t> near;
@@ -56,16 +61,16 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const Diagn
   return near;
 }
 
+constexpr double kSame =
+    2e-3;  // relative difference of squared errors that the searches themselves may leave
+
 /// Refits of no more parameters that these data cannot tell from the named one: they win in a fair share of
-/// resamples, or differ from it by less than a hundredth of what it explains.
-std::vector<std::size_t> rivals_of(std::size_t named, const Stage& stage, const std::vector<Refit>& refits,
-                                   const Data& data, const DiagnoseOptions& options) {
-  const Scores& before = stage.estimate.scores;
-  const double explained =
-      before.train * before.train + before.held_out * before.held_out - refits[named].square();
+/// resamples, or leave the same error.
+std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits, const Data& data,
+                                   const DiagnoseOptions& options) {
   std::vector<std::size_t> rivals;
   for (std::size_t i = 0; i < refits.size(); ++i) {
-    const bool close = refits[i].square() - refits[named].square() < std::min(0.01 * explained, 0.1);
+    const bool close = refits[i].square() < (1.0 + kSame) * refits[named].square();
     if (i != named && refits[i].own <= refits[named].own &&
         (close || share_better(refits[i], refits[named], data, options) > 0.05)) {
       rivals.push_back(i);
@@ -141,14 +146,14 @@ class Diagnoser {
     Stage& stage = diagnosis.final_stage;
     stage.model = model;
     PredictorPool pool(model, data_);
-    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-3});
+    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.estimate = given;
     // The stage changes as a whole: an interruption must not leave parameters without their values.
     const std::vector<FreeParameter> own = stated_parameters(model, options_.parameter_width);
     if (!own.empty()) {
       progress_("the model's own parameters", 0.5);
-      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-3});
+      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-4});
       stage.parameters = own;
       diagnosis.ladder.push_back({"own parameters fitted", stage});
     }
@@ -193,14 +198,15 @@ class Diagnoser {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
       rows[i].remark = objection(stage, refits[i], is_near ? share : shares[i], data_, options_);
     }
-    std::stable_sort(near.begin(), near.end(),
-                     [&](std::size_t a, std::size_t b) { return refits[a].own < refits[b].own; });
+    std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
+      return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);
+    });
     const auto named =
         std::find_if(near.begin(), near.end(), [&](std::size_t i) { return rows[i].remark.empty(); });
     if (named == near.end()) {
       return false;
     }
-    accept(candidates, refits, rivals_of(*named, stage, refits, data_, options_), *named, share, diagnosis);
+    accept(candidates, refits, rivals_of(*named, refits, data_, options_), *named, share, diagnosis);
     return true;
   }
 
@@ -285,6 +291,24 @@ class Diagnoser {
   const Progress& progress_;
 };
 
+/// Integrator steps between two commands that a candidate may take: one that needs many more than the model
+/// as it is would be stiffer than anything that the samples could show, and cost as much as all others
+/// together.
+long most_steps(const model::Model& model, const Data& data) {
+  constexpr long kLeast = 50;
+  constexpr long kTimesTheModel = 10;
+  constexpr long kEvaluationsOfStep = 3;
+  PredictorPool pool(model, data);
+  long samples = 0;
+  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
+    pool.with(static_cast<int>(w), {}, Eigen::VectorXd(), [&](Predictor& predictor) {
+      predictor.residual(data.windows[w], predictor.initial_state(data.windows[w]));
+    });
+    samples += data.windows[w].count;
+  }
+  return std::max(kLeast, kTimesTheModel * pool.evaluations() / (kEvaluationsOfStep * std::max(1L, samples)));
+}
+
 }  // namespace
 
 std::string to_string(Verdict verdict) {
@@ -320,6 +344,7 @@ Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<Free
     sse += reduced[i].sse;
     count += static_cast<double>(data.windows[w].count) * static_cast<double>(estimate.square[w].size());
   }
+  H.diagonal() += prior(parameters, units, estimate.theta).H;
   H.diagonal() *= 1.0 + 1e-12;
   const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
   const double m = static_cast<double>(windows.size());
@@ -344,7 +369,8 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  const Data part = data.thinned(options.windows);
+  Data part = data.thinned(options.windows);
+  part.predict.most_steps = most_steps(model, part);
   Diagnoser diagnoser(catalogue, part, options, progress);
   try {
     diagnoser.run(model, diagnosis);

@@ -59,7 +59,8 @@ double promised_square(const Sum& sum, const std::vector<Eigen::Index>& chosen, 
 }
 
 /// Solves for the chosen columns on the train windows; the promise is judged on both roles.
-Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Room& bounds) {
+Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Prior& known,
+                             const Room& bounds) {
   const auto n = static_cast<Eigen::Index>(chosen.size());
   Eigen::MatrixXd H(n, n);
   Eigen::VectorXd g(n);
@@ -67,19 +68,29 @@ Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& 
   Eigen::VectorXd upper(n);
   for (Eigen::Index a = 0; a < n; ++a) {
     const Eigen::Index i = chosen[static_cast<std::size_t>(a)];
-    g[a] = train.g[i];
+    g[a] = train.g[i] + known.g[i];
     lower[a] = bounds.lower[i];
     upper[a] = bounds.upper[i];
     for (Eigen::Index b = 0; b < n; ++b) {
       H(a, b) = train.H(i, chosen[static_cast<std::size_t>(b)]);
     }
+    H(a, a) += known.H[i];
   }
   return box_least_squares(H, g, lower, upper);
 }
 
-bool moves_prediction(const Sum& train, const std::vector<Eigen::Index>& own) {
-  return std::any_of(own.begin(), own.end(),
-                     [&](Eigen::Index i) { return train.H(i, i) > 1e-6 && std::isfinite(train.H(i, i)); });
+/// Of a law's parameters those that, at the strength where the law matters as much as the driving force, move
+/// the prediction by a noticeable share of the floor. The others are numerical noise, and left where they
+/// are.
+std::vector<Eigen::Index> noticeable(const Sum& train, const std::vector<Eigen::Index>& own) {
+  constexpr double kShareOfFloor = 0.03;
+  std::vector<Eigen::Index> chosen;
+  for (const Eigen::Index i : own) {
+    if (std::isfinite(train.H(i, i)) && train.H(i, i) > kShareOfFloor * kShareOfFloor * train.samples) {
+      chosen.push_back(i);
+    }
+  }
+  return chosen;
 }
 
 /// Windows for the costly starts: enough to tell, spread over the trials.
@@ -121,31 +132,60 @@ std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Ca
   const Sum train = sum_of(reduced, windows, data, Role::train);
   const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
   const Room bounds = room(parameters, theta, units);
+  const Prior known = prior(parameters, units, theta);
   std::vector<Hypothesis> found;
   for (std::size_t h = 0; h < all.size(); ++h) {
-    if (!moves_prediction(train, own[h])) {
+    const std::vector<Eigen::Index> moving = noticeable(train, own[h]);
+    if (moving.empty()) {
       continue;
     }
     std::vector<Eigen::Index> chosen;
     for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
       chosen.push_back(static_cast<Eigen::Index>(p));
     }
-    chosen.insert(chosen.end(), own[h].begin(), own[h].end());
+    chosen.insert(chosen.end(), moving.begin(), moving.end());
     Hypothesis hypothesis = all[h];
-    hypothesis.step = solve_chosen(train, chosen, bounds);
-    hypothesis.promised_train = promised_square(train, chosen, hypothesis.step);
-    hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step);
+    const Eigen::VectorXd step = solve_chosen(train, chosen, known, bounds);
+    hypothesis.promised_train = promised_square(train, chosen, step);
+    hypothesis.promised_held_out = promised_square(held_out, chosen, step);
     hypothesis.x0.resize(data.windows.size());
     for (std::size_t w = 0; w < windows.size(); ++w) {
       Eigen::VectorXd x = stage.estimate.x0[w] + reduced[w].x_shift;
       for (std::size_t a = 0; a < chosen.size(); ++a) {
-        x -= reduced[w].x_slope.col(chosen[a]) * hypothesis.step[static_cast<Eigen::Index>(a)];
+        x -= reduced[w].x_slope.col(chosen[a]) * step[static_cast<Eigen::Index>(a)];
       }
       hypothesis.x0[w] = x;
+    }
+    hypothesis.step =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.parameters.size() + own[h].size()));
+    for (std::size_t a = 0; a < chosen.size(); ++a) {
+      const bool is_own = chosen[a] >= static_cast<Eigen::Index>(stage.parameters.size());
+      const Eigen::Index first_own = own[h].front() - static_cast<Eigen::Index>(stage.parameters.size());
+      hypothesis.step[is_own ? chosen[a] - first_own : chosen[a]] = step[static_cast<Eigen::Index>(a)];
     }
     found.push_back(std::move(hypothesis));
   }
   return found;
+}
+
+/// Squared error of the stage on some of the windows as a share of that on all: promises made on a part of
+/// the windows are brought to all of them by it.
+double share_of_error(const Stage& stage, const std::vector<int>& windows, const Data& data, Role role) {
+  const auto mean = [&](const std::vector<int>& some) {
+    double sum = 0.0;
+    double samples = 0.0;
+    for (const int w : some) {
+      if (data.role(static_cast<std::size_t>(w)) == role) {
+        const Eigen::VectorXd& square = stage.estimate.square[static_cast<std::size_t>(w)];
+        sum += square.sum();
+        samples += static_cast<double>(data.windows[static_cast<std::size_t>(w)].count * square.size());
+      }
+    }
+    return samples > 0.0 ? sum / samples : 0.0;
+  };
+  const double all = mean(data.windows_of(role));
+  const double part = mean(windows);
+  return all > 0.0 && part > 0.0 ? part / all : 1.0;
 }
 
 void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
@@ -169,9 +209,51 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
     bounds.lower[p] = std::max(bounds.lower[p], -1.0);
     bounds.upper[p] = std::min(bounds.upper[p], 1.0);
   }
-  hypothesis.step = solve_chosen(train, chosen, bounds);
-  hypothesis.promised_train = promised_square(train, chosen, hypothesis.step);
-  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step);
+  const Prior known = prior(extended.parameters, units, extended.theta);
+  hypothesis.step = solve_chosen(train, chosen, known, bounds);
+  hypothesis.promised_train =
+      promised_square(train, chosen, hypothesis.step) / share_of_error(stage, windows, data, Role::train);
+  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step) /
+                                 share_of_error(stage, windows, data, Role::held_out);
+}
+
+void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+}
+
+/// The best of the laws that had to be linearised away from their null value are linearised once more where
+/// their promise leads: theirs is the promise that a straight line keeps worst.
+void look_again(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                const std::vector<int>& windows, const Progress& progress, std::vector<Hypothesis>& found) {
+  constexpr std::size_t kLooks = 12;
+  std::vector<int> seen;
+  for (std::size_t h = 0; h < found.size() && seen.size() < kLooks; ++h) {
+    if (found[h].tangent || std::find(seen.begin(), seen.end(), found[h].candidate) != seen.end()) {
+      continue;
+    }
+    seen.push_back(found[h].candidate);
+    const Candidate& candidate = candidates[static_cast<std::size_t>(found[h].candidate)];
+    progress("looking again at " + candidate.label(), 0.95);
+    const Extended extended = extend(stage, candidate, found[h].start);
+    const Eigen::VectorXd theta = promised_theta(extended, found[h]);
+    Hypothesis again = found[h];
+    again.start = with_values(extended.model, extended.parameters, theta).effects.back().numbers();
+    if (candidate.law->is_null(again.start.data())) {
+      continue;
+    }
+    try {
+      screen_start(stage, candidates, again, data, windows);
+      if (again.promised() < found[h].promised()) {
+        found[h] = std::move(again);
+      }
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      continue;  // not to be integrated there
+    }
+  }
+  sort_by_promise(found);
 }
 
 }  // namespace
@@ -187,6 +269,20 @@ Extended extend(const Stage& stage, const Candidate& candidate, const effects::V
   }
   extended.theta = values_of(extended.model, extended.parameters);
   return extended;
+}
+
+Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypothesis) {
+  const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
+  Eigen::VectorXd theta = extended.theta;
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    const FreeParameter& parameter = extended.parameters[static_cast<std::size_t>(p)];
+    const double search = to_search(parameter.scale, theta[p]) + units[p] * hypothesis.step[p];
+    const double value = from_search(parameter.scale, search);
+    if (std::isfinite(value)) {
+      theta[p] = std::clamp(value, parameter.lower, parameter.upper);
+    }
+  }
+  return theta;
 }
 
 std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
@@ -220,8 +316,8 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
       continue;  // this start cannot be integrated on these trials: it is no explanation of them
     }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+  sort_by_promise(found);
+  look_again(stage, candidates, data, windows, progress, found);
   return found;
 }
 

@@ -43,4 +43,7 @@ struct Extended {
 };
 Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values);
 
+/// The extended model's values at the hypothesis' start, moved by what it promises, within bounds.
+Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypothesis);
+
 }  // namespace plumbline::validation

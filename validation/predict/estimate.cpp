@@ -299,6 +299,23 @@ Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, cons
   return slopes;
 }
 
+Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+            const Eigen::VectorXd& theta) {
+  Prior all{0.0, Eigen::VectorXd::Zero(units.size()), Eigen::VectorXd::Zero(units.size())};
+  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    if (std::isfinite(parameter.deviation)) {
+      const double off = (theta[p] - parameter.mean) / parameter.deviation;
+      const double slope = slopes[p] / parameter.deviation;
+      all.square += off * off;
+      all.g[p] = -off * slope;
+      all.H[p] = slope * slope;
+    }
+  }
+  return all;
+}
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
   for (const Role role : {Role::train, Role::held_out}) {

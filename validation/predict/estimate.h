@@ -20,6 +20,8 @@ struct Estimate {
   std::vector<Eigen::VectorXd> x0;      ///< by window
   std::vector<Eigen::VectorXd> square;  ///< by window: sum of squared residuals of each channel, floor units
   Scores scores;
+  double cost =
+      0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand
   int iterations = 0;
   bool converged = false;
 };
@@ -36,7 +38,8 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
                   const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                   const EstimateOptions& options);
 
-/// The same estimate by Gauss-Newton steps on the reduced equations, for many models in a short time: one
+/// The estimate with what is known beforehand (Prior), by Gauss-Newton steps on the reduced equations, for
+/// many models in a short time: one
 /// pass over the windows gives the step of the parameters and of all initial states, held-out ones included.
 /// Steps that raise the cost are shortened. Stops when a step promises less than options.tolerance of the
 /// cost. Throws std::runtime_error when the model cannot be integrated from the start values.
@@ -70,6 +73,16 @@ Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const
 /// d(value)/d(search/unit) of each parameter at theta.
 Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
                               const Eigen::VectorXd& theta);
+
+/// What is known of the parameters beforehand, as further squared residuals ((theta - mean) / deviation)^2 in
+/// the same search coordinates: their sum, and what they add to g and to the diagonal of H. The data's own
+/// residuals are in units of the floor, so that the sum of both is minus twice a log posterior.
+struct Prior {
+  double square = 0.0;
+  Eigen::VectorXd g, H;
+};
+Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+            const Eigen::VectorXd& theta);
 
 /// Room that each parameter has within its bounds, in search units from theta.
 struct Room {

@@ -52,10 +52,11 @@ double train_cost(const Data& data, const std::vector<Reduced>& reduced) {
 }
 
 /// The full step: parameters from the train windows within their room, every initial state after them.
-Step full_step(const Data& data, const std::vector<Reduced>& reduced, const Room& bounds, double* promise) {
+Step full_step(const Data& data, const std::vector<Reduced>& reduced, const Prior& known, const Room& bounds,
+               double* promise) {
   const Eigen::Index n = bounds.lower.size();
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd H = known.H.asDiagonal();
+  Eigen::VectorXd g = known.g;
   double raw = 0.0;
   double left = 0.0;
   for (std::size_t w = 0; w < reduced.size(); ++w) {
@@ -109,7 +110,8 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   Estimate result;
   for (result.iterations = 1; result.iterations < options.iterations; ++result.iterations) {
     double promise = 0.0;
-    const Step step = full_step(data, reduced, room(parameters, here.theta, units), &promise);
+    const Prior known = prior(parameters, units, here.theta);
+    const Step step = full_step(data, reduced, known, room(parameters, here.theta, units), &promise);
     if (promise < options.tolerance) {
       result.converged = true;
       break;
@@ -119,8 +121,9 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
       const Point there = moved(here, step, share, parameters, units);
       try {
         std::vector<Reduced> next = passes.reduce_at(there, units);
+        const double cost = train_cost(data, next) + prior(parameters, units, there.theta).square;
         if (is_finite(next) &&
-            train_cost(data, next) < train_cost(data, reduced) * (1.0 + options.tolerance)) {
+            cost < (train_cost(data, reduced) + known.square) * (1.0 + options.tolerance)) {
           here = there;
           reduced = std::move(next);
           better = true;
@@ -142,6 +145,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
     result.square.push_back(reduced[w].square);
   }
   result.scores = score(data, result.square);
+  result.cost = train_cost(data, reduced) + prior(parameters, units, here.theta).square;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "simulator/integrate/plant_ode.h"
+#include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::validation {
@@ -114,27 +115,93 @@ Eigen::MatrixXd Predictor::local_polynomial(const Window& window) const {
 Eigen::VectorXd Predictor::initial_state(const Window& window) {
   const Eigen::MatrixXd local = local_polynomial(window);
   const Eigen::Index nz = plant_.positions();
-  const Eigen::MatrixXd& stretch = plant_.stretch_map();
-  const Eigen::Index rows = channels() + stretch.rows();
-  Eigen::MatrixXd C(rows, nz);
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(rows, 2);
-  for (int c = 0; c < channels(); ++c) {
-    const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
-    C.row(c) = plant_.output_map().row(s) / floors_[c];
-    y(c, 0) = (local(0, c) - plant_.output_offset()[s]) / floors_[c];
-    y(c, 1) = local(1, c) / trial_.period / floors_[c];
-  }
-  // A stretch that no sensor sees is taken as zero, with a weight that never fights a sensor.
-  const double weak = 1e-6 * C.topRows(channels()).cwiseAbs().maxCoeff();
-  C.bottomRows(stretch.rows()) = weak * stretch;
-  const Eigen::MatrixXd z = C.completeOrthogonalDecomposition().solve(y);
+  Eigen::MatrixXd y(channels(), 2);
+  y.col(0) = local.row(0).transpose();
+  y.col(1) = local.row(1).transpose() / trial_.period;
+  const Eigen::MatrixXd z = state_from(y);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
   x.head(nz) = z.col(0);
   x.segment(nz, nz) = z.col(1);
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
   plant_.settle(command.data(), x.data());
+  carry_hidden(window, x.data());
   return x;
+}
+
+// Independent positions (first half of the columns) and velocities (second half) that fit the channels best.
+Eigen::MatrixXd Predictor::state_from(const Eigen::MatrixXd& channel_values) const {
+  const Eigen::MatrixXd& stretch = plant_.stretch_map();
+  const Eigen::Index rows = channels() + stretch.rows();
+  Eigen::MatrixXd C(rows, plant_.positions());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(rows, channel_values.cols());
+  const Eigen::Index half = channel_values.cols() / 2;
+  for (int c = 0; c < channels(); ++c) {
+    const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
+    C.row(c) = plant_.output_map().row(s) / floors_[c];
+    y.row(c) = channel_values.row(c) / floors_[c];
+    y.row(c).head(half).array() -= plant_.output_offset()[s] / floors_[c];
+  }
+  // A stretch that no sensor sees is taken as zero, with a weight that never fights a sensor.
+  const double weak = 1e-6 * C.topRows(channels()).cwiseAbs().maxCoeff();
+  C.bottomRows(stretch.rows()) = weak * stretch;
+  return C.completeOrthogonalDecomposition().solve(y);
+}
+
+void Predictor::measure_motion() {
+  const Eigen::Index n = trial_.samples();
+  const Eigen::Index nz = plant_.positions();
+  Eigen::MatrixXd y(channels(), 2 * n);
+  for (int c = 0; c < channels(); ++c) {
+    const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
+    y.row(c).head(n) = values.transpose();
+    y.row(c).tail(n) =
+        sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal()).transpose();
+  }
+  const Eigen::MatrixXd z = state_from(y);
+  motion_.resize(2 * nz, n);
+  motion_.topRows(nz) = z.leftCols(n);
+  motion_.bottomRows(nz) = z.rightCols(n);
+}
+
+void Predictor::carry_hidden(const Window& window, double* x) {
+  const std::vector<int> hidden = plant_.force_states();
+  const bool too_short = trial_.samples() < sensing::DifferentiationOptions::acausal().window;
+  if (hidden.empty() || too_short) {
+    return;
+  }
+  if (motion_.size() == 0) {
+    measure_motion();
+  }
+  for (const int i : hidden) {
+    x[i] = 0.0;
+  }
+  const auto reach = static_cast<Eigen::Index>(std::lround(options_.history / trial_.period));
+  for (Eigen::Index k = std::max<Eigen::Index>(0, window.first - reach); k < window.first; ++k) {
+    plant_.carry_force_states(motion_.col(k).data(), motion_.col(k + 1).data(), trial_.period, x);
+  }
+}
+
+// d(hidden states at the window's start)/d(parameters), states x parameters.
+Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
+                                         const Eigen::VectorXd& steps) {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(plant_.states(), steps.size());
+  const std::vector<int> owners = plant_.force_state_effects();
+  Eigen::VectorXd here = Eigen::VectorXd::Zero(plant_.states());
+  Eigen::VectorXd there = here;
+  carry_hidden(window, here.data());
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    if (std::find(owners.begin(), owners.end(), ids[p].effect) == owners.end()) {
+      continue;
+    }
+    const auto i = static_cast<Eigen::Index>(p);
+    const double value = plant_.value(ids[p]);
+    plant_.set_value(ids[p], value + steps[i]);
+    carry_hidden(window, there.data());
+    plant_.set_value(ids[p], value);
+    slopes.col(i) = (there - here) / steps[i];
+  }
+  return slopes;
 }
 
 // Wide: the data decide; only directions that no sensor sees are held by it.
@@ -148,10 +215,8 @@ Eigen::VectorXd Predictor::initial_spread(const Window& window) {
   for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
     spread[i] = 1.0 + std::abs(x[i]);
   }
-  // A bristle starts relaxed: left free, it would be a force of its own in every window, and a friction law
-  // would explain whatever is constant over a window.
   for (const int i : plant_.force_states()) {
-    spread[i] = 1e-9 * spread[i];
+    spread[i] = 1e-9 * spread[i];  // not free: carried along the measured motion
   }
   return spread;
 }
@@ -161,13 +226,15 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   integrate::Options options;
   options.relative_tolerance = options_.relative_tolerance;
   options.order = 3;  // one step for each held sample: four evaluations, errors far below any encoder's count
+  options.max_steps = options_.most_steps;
   options.absolute_tolerance = Eigen::VectorXd::Constant(1, options_.relative_tolerance * 1e-2);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
   states_.resize(plant_.states(), window.count);
   states_.col(0) = x0;
+  carry_hidden(window, states_.col(0).data());  // they depend on the parameters, so x0 cannot know them
   const double t0 = trial_.time[window.first];
-  integrator.start(t0, x0);
+  integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();
   for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
     for (std::size_t b = 0; b < breaks.size(); ++b) {
@@ -241,7 +308,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     ids.push_back(parameter.id);
     const double here = plant_.value(parameter.id);
     const double reference = std::isfinite(here) && here != 0.0 ? std::abs(here) : parameter.typical;
-    steps[p] = 1e-4 * reference;
+    steps[p] = 1e-6 * reference;
     if (here + steps[p] > parameter.upper) {
       steps[p] = -steps[p];
     }
@@ -250,6 +317,9 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   out.Jp.resize(out.r.size(), np);
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
   S.leftCols(nx).setIdentity();
+  if (!plant_.force_states().empty()) {
+    S.rightCols(np) = hidden_slopes(window, ids, steps);
+  }
   Eigen::MatrixXd A(nx, nx);
   Eigen::MatrixXd B;
   Eigen::MatrixXd C;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +24,9 @@ struct Window {
 struct PredictOptions {
   double window = 0.5;  ///< s
   double relative_tolerance = 1e-5;
-  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
+  double history = 1.0;      ///< s of measured motion before a window over which hidden states are carried
+  long most_steps = 200000;  ///< of the integrator between two commands; more: std::runtime_error
+  int refresh = 8;           ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
@@ -38,6 +41,8 @@ struct FreeParameter {
   effects::Scale scale = effects::Scale::linear;
   double lower = 0.0, upper = 0.0;  ///< in the parameter's own unit
   double typical = 1.0;
+  double mean = 0.0;                                           ///< what is known of it beforehand
+  double deviation = std::numeric_limits<double>::infinity();  ///< and how well; infinite: not at all
 };
 
 /// The window's residual r = (measured - predicted) / floor, channel by channel within each sample, and
@@ -57,7 +62,10 @@ class Predictor {
   const Eigen::VectorXd& floors() const { return floors_; }
 
   /// State at the window's start from the measurements alone: positions by weighted least squares over the
-  /// first samples' local polynomials, hidden states at rest, unseen stretches zero.
+  /// first samples' local polynomials, unseen stretches zero, actuators settled. Hidden states of force laws
+  /// (bristles) start relaxed with the trial and are carried along the measured motion up to the window: free
+  /// in each window they would be a force of their own, and a friction law would explain whatever is constant
+  /// over a window.
   Eigen::VectorXd initial_state(const Window& window);
   /// One standard deviation within which the initial state is expected around initial_state().
   Eigen::VectorXd initial_spread(const Window& window);
@@ -79,6 +87,11 @@ class Predictor {
   void tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
                   const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
+  Eigen::MatrixXd state_from(const Eigen::MatrixXd& channels) const;
+  void measure_motion();
+  void carry_hidden(const Window& window, double* x);
+  Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
+                                const Eigen::VectorXd& steps);
 
   const Trial& trial_;
   PredictOptions options_;
@@ -88,6 +101,7 @@ class Predictor {
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   Eigen::MatrixXd states_;  // states x count of the last run
+  Eigen::MatrixXd motion_;  // positions and velocities x samples, measured; empty until it is needed
   long evaluations_ = 0;
 };
 
