@@ -34,7 +34,8 @@ const Declaration& Backlash::declaration() const {
       {Place::ratio},
       {non_negative("gap", "{position}", "free play of the motor, from contact to contact"),
        positive("stiffness", "{force}/{position}", "stiffness of the contact", 1e3),
-       fixed("damping", "{force} s/{position}", "damping of the contact", 0.3, 0.0, kInfinity)},
+       Parameter{"damping", "{force} s/{position}", "damping of the contact", 0.3, 0.0, kInfinity,
+                 Scale::linear, false}},
       {},
       ""};
   return kDeclaration;

@@ -1,6 +1,7 @@
 // The sensitivities that every fit and diagnosis rests on, against differences of whole predicted windows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/limits/bench.h"
@@ -97,7 +98,12 @@ TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
                   GetParam().moved[p].share);
   }
   const std::vector<std::string> names = exact_->plant().state_names();
+  const std::vector<int> carried = exact_->plant().force_states();
   for (Eigen::Index i = 0; i < x0_.size(); ++i) {
+    if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {
+      EXPECT_EQ(found.Jx.col(i).norm(), 0.0) << "follows the measured motion, whatever the start";
+      continue;
+    }
     const double step = 1e-5 * (1.0 + std::abs(x0_[i]));
     Eigen::VectorXd x = x0_;
     x[i] = x0_[i] + step;
@@ -134,7 +140,7 @@ const std::vector<Case>& cases() {
        {{"lugre", "mLA", "level", 0.05},
         {"lugre", "mLA", "rise", 0.02, kFastShare},
         {"lugre", "mLA", "stribeck_speed", 1.0},
-        {"lugre", "mLA", "stiffness", 0.5},
+        {"lugre", "mLA", "stiffness", 0.5, kFastShare},
         {"lugre", "mLA", "bristle_damping", 0.016},
         {"lugre", "mLA", "viscous", 0.001}}},
       {"command_delay", {"command_delay@mLA:delay=0.0023"}, {{"command_delay", "mLA", "delay", 0.01}}},

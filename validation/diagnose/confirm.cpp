@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "validation/predict/deviations.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -93,6 +95,31 @@ double disagreement(const Refit& refit, const Data& data) {
   return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
 }
 
+/// Name of a parameter without which the law would be null and which cannot be told from its null value: play
+/// without a gap, a stretch without a compliance. Then something else about the law must have helped.
+std::string undecided(const Candidate& candidate, const Refit& refit, const Data& data) {
+  constexpr double kDeviations = 2.0;
+  PredictorPool pool(refit.extended.model, data);
+  const std::vector<FreeParameter>& parameters = refit.extended.parameters;
+  const Eigen::VectorXd deviations = parameter_deviations(pool, parameters, refit.estimate, nullptr);
+  const effects::Values values =
+      with_values(refit.extended.model, parameters, refit.estimate.theta).effects.back().numbers();
+  for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {
+    const auto own = static_cast<std::size_t>(parameters[p].id.parameter);
+    const double null = candidate.law->declaration().parameters[own].null_value;
+    effects::Values without = values;
+    without[own] = null;
+    const effects::Scale scale = parameters[p].scale;
+    const double distance = std::abs(to_search(scale, values[own]) - to_search(scale, null));
+    const double deviation =
+        deviations[static_cast<Eigen::Index>(p)] / std::abs(search_slope(scale, values[own]));
+    if (candidate.law->is_null(without.data()) && distance < kDeviations * deviation) {
+      return parameters[p].label;
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
@@ -171,8 +198,8 @@ double share_better(const Refit& other, const Refit& best, const Data& data, con
   return share;
 }
 
-std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
-                      const DiagnoseOptions& options) {
+std::string objection(const Stage& stage, const Candidate& candidate, const Refit& refit, double share,
+                      const Data& data, const DiagnoseOptions& options) {
   const Scores& before = stage.estimate.scores;
   const Scores& after = refit.estimate.scores;
   const bool judged = data.has(Role::held_out);
@@ -199,7 +226,8 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   if (apart > options.consistent) {
     return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
   }
-  return "";
+  const std::string open = undecided(candidate, refit, data);
+  return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
 }
 
 }  // namespace plumbline::validation

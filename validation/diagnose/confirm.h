@@ -34,7 +34,7 @@ std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>
 double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options);
 
 /// Empty when the refit may be accepted, otherwise the reason in a few words.
-std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
-                      const DiagnoseOptions& options);
+std::string objection(const Stage& stage, const Candidate& candidate, const Refit& refit, double share,
+                      const Data& data, const DiagnoseOptions& options);
 
 }  // namespace plumbline::validation

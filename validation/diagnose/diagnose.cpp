@@ -1,11 +1,11 @@
 #include "validation/diagnose/diagnose.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
+#include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 namespace {
@@ -77,6 +77,26 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
     }
   }
   return rivals;
+}
+
+/// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
+/// would be stiffer than anything that the samples could show, and cost as much as all others together.
+Data without_stiffness(const Stage& stage, const Data& data) {
+  constexpr double kLeast = 12.0;
+  constexpr double kTimesTheStage = 5.0;
+  constexpr double kEvaluationsOfStep = 3.0;
+  PredictorPool pool(stage.model, data);
+  double most = 0.0;
+  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
+    const long before = pool.evaluations();
+    pool.with(static_cast<int>(w), stage.parameters, stage.estimate.theta,
+              [&](Predictor& predictor) { predictor.residual(data.windows[w], stage.estimate.x0[w]); });
+    most = std::max(most, static_cast<double>(pool.evaluations() - before) /
+                              (kEvaluationsOfStep * static_cast<double>(data.windows[w].count)));
+  }
+  Data limited = data;
+  limited.predict.most_steps = std::max(kLeast, kTimesTheStage * most);
+  return limited;
 }
 
 class Diagnoser {
@@ -166,8 +186,9 @@ class Diagnoser {
       PredictorPool pool(stage.model, data_);
       candidates = list_candidates(pool, catalogue_, stage.parameters, stage.estimate);
     }
-    const std::vector<Hypothesis> hypotheses = screen(stage, candidates, data_, progress_);
-    const std::vector<Refit> refits = refit(stage, candidates, hypotheses, data_, options_, progress_);
+    const Data quick = without_stiffness(stage, data_);
+    const std::vector<Hypothesis> hypotheses = screen(stage, candidates, quick, progress_);
+    const std::vector<Refit> refits = refit(stage, candidates, hypotheses, quick, options_, progress_);
     diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(hypotheses.size()));
     std::vector<RankRow> rows = rank(candidates, hypotheses, refits);
     const bool accepted = !refits.empty() && judge(candidates, refits, rows, diagnosis);
@@ -196,7 +217,8 @@ class Diagnoser {
     }
     for (std::size_t i = 0; i < refits.size(); ++i) {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
-      rows[i].remark = objection(stage, refits[i], is_near ? share : shares[i], data_, options_);
+      rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
+                                 is_near ? share : shares[i], data_, options_);
     }
     std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
       return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);
@@ -291,24 +313,6 @@ class Diagnoser {
   const Progress& progress_;
 };
 
-/// Integrator steps between two commands that a candidate may take: one that needs many more than the model
-/// as it is would be stiffer than anything that the samples could show, and cost as much as all others
-/// together.
-long most_steps(const model::Model& model, const Data& data) {
-  constexpr long kLeast = 50;
-  constexpr long kTimesTheModel = 10;
-  constexpr long kEvaluationsOfStep = 3;
-  PredictorPool pool(model, data);
-  long samples = 0;
-  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
-    pool.with(static_cast<int>(w), {}, Eigen::VectorXd(), [&](Predictor& predictor) {
-      predictor.residual(data.windows[w], predictor.initial_state(data.windows[w]));
-    });
-    samples += data.windows[w].count;
-  }
-  return std::max(kLeast, kTimesTheModel * pool.evaluations() / (kEvaluationsOfStep * std::max(1L, samples)));
-}
-
 }  // namespace
 
 std::string to_string(Verdict verdict) {
@@ -323,54 +327,13 @@ std::string to_string(Verdict verdict) {
   return "unexplained";
 }
 
-Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                     const Estimate& estimate, Eigen::MatrixXd* correlation) {
-  const Data& data = pool.data();
-  const std::vector<int> windows = data.windows_of(Role::train);
-  const Eigen::VectorXd units = search_units(parameters, estimate.theta);
-  const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
-  const auto n = static_cast<Eigen::Index>(parameters.size());
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
-  for (const Reduced& one : reduced) {
-    H += one.H;
-    G += one.g * one.g.transpose();
-  }
-  // Never below what white residuals of the present size would give.
-  double sse = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const auto w = static_cast<std::size_t>(windows[i]);
-    sse += reduced[i].sse;
-    count += static_cast<double>(data.windows[w].count) * static_cast<double>(estimate.square[w].size());
-  }
-  H.diagonal() += prior(parameters, units, estimate.theta).H;
-  H.diagonal() *= 1.0 + 1e-12;
-  const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
-  const double m = static_cast<double>(windows.size());
-  const Eigen::MatrixXd sandwich = inverse * G * inverse * (m / std::max(1.0, m - static_cast<double>(n)));
-  const Eigen::MatrixXd white = inverse * (sse / std::max(1.0, count));
-  Eigen::VectorXd deviations(n);
-  for (Eigen::Index p = 0; p < n; ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    const double search = std::sqrt(std::max({sandwich(p, p), white(p, p), 0.0})) * units[p];
-    deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
-  }
-  if (correlation != nullptr) {
-    const Eigen::VectorXd scale = inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    *correlation = scale.asDiagonal() * inverse * scale.asDiagonal();
-  }
-  return deviations;
-}
-
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                    const DiagnoseOptions& options, const Progress& progress) {
   if (!data.has(Role::train)) {
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  Data part = data.thinned(options.windows);
-  part.predict.most_steps = most_steps(model, part);
+  const Data part = data.thinned(options.windows);
   Diagnoser diagnoser(catalogue, part, options, progress);
   try {
     diagnoser.run(model, diagnosis);

@@ -10,11 +10,11 @@ namespace plumbline::validation {
 
 struct DiagnoseOptions {
   int most_effects = 4;          ///< rounds of acceptance
-  int refits = 6;                ///< candidates that are refitted in each round
+  int refits = 8;                ///< candidates that are refitted in each round
   double material = 0.05;        ///< least relative fall of the held-out error
   double stable = 0.7;           ///< least share of resamples that choose the effect (or a rival)
   double at_floor = 1.05;        ///< error at which nothing is left to explain
-  double finished = 1.5;         ///< error below which what was named is an answer
+  double finished = 1.2;         ///< error below which what was named is an answer
   double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
   double parameter_width = 2.0;  ///< stated standard deviations that the model's own parameters may move
   std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
@@ -77,10 +77,5 @@ struct Diagnosis {
 /// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                    const DiagnoseOptions& options, const Progress& progress);
-
-/// Standard deviations of parameters from the windows' own scatter (sandwich estimate over windows), so that
-/// correlated residuals within a window do not make them too small.
-Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                     const Estimate& estimate, Eigen::MatrixXd* correlation);
 
 }  // namespace plumbline::validation

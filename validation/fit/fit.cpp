@@ -7,7 +7,7 @@
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
-#include "validation/diagnose/diagnose.h"
+#include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 namespace {

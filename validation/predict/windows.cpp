@@ -226,7 +226,6 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   integrate::Options options;
   options.relative_tolerance = options_.relative_tolerance;
   options.order = 3;  // one step for each held sample: four evaluations, errors far below any encoder's count
-  options.max_steps = options_.most_steps;
   options.absolute_tolerance = Eigen::VectorXd::Constant(1, options_.relative_tolerance * 1e-2);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
@@ -244,6 +243,10 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
       integrator.advance(t0 + (static_cast<double>(k) + next) * trial_.period);
     }
     states_.col(k + 1) = integrator.state();
+    if (static_cast<double>(integrator.summary().steps) >
+        options_.most_steps * static_cast<double>(window.count)) {
+      throw std::runtime_error("a window needs more integrator steps than are worth while");
+    }
   }
   evaluations_ += integrator.summary().rate_evaluations;
 }
@@ -317,8 +320,12 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   out.Jp.resize(out.r.size(), np);
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
   S.leftCols(nx).setIdentity();
-  if (!plant_.force_states().empty()) {
+  const std::vector<int> carried = plant_.force_states();
+  if (!carried.empty()) {
     S.rightCols(np) = hidden_slopes(window, ids, steps);
+  }
+  for (const int i : carried) {
+    S(i, i) = 0.0;  // it follows the measured motion, not the window's start
   }
   Eigen::MatrixXd A(nx, nx);
   Eigen::MatrixXd B;

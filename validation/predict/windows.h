@@ -24,9 +24,10 @@ struct Window {
 struct PredictOptions {
   double window = 0.5;  ///< s
   double relative_tolerance = 1e-5;
-  double history = 1.0;      ///< s of measured motion before a window over which hidden states are carried
-  long most_steps = 200000;  ///< of the integrator between two commands; more: std::runtime_error
-  int refresh = 8;           ///< samples between refreshes of the rigid linearisation
+  double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
+  /// Integrator steps for each sample, mean over a window; a law that needs more: std::runtime_error.
+  double most_steps = std::numeric_limits<double>::infinity();
+  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than

@@ -1,0 +1,49 @@
+#include "validation/predict/deviations.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::validation {
+
+Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Estimate& estimate, Eigen::MatrixXd* correlation) {
+  const Data& data = pool.data();
+  const std::vector<int> windows = data.windows_of(Role::train);
+  const Eigen::VectorXd units = search_units(parameters, estimate.theta);
+  const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
+  for (const Reduced& one : reduced) {
+    H += one.H;
+    G += one.g * one.g.transpose();
+  }
+  // Never below what white residuals of the present size would give.
+  double sse = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const auto w = static_cast<std::size_t>(windows[i]);
+    sse += reduced[i].sse;
+    count += static_cast<double>(data.windows[w].count) * static_cast<double>(estimate.square[w].size());
+  }
+  H.diagonal() += prior(parameters, units, estimate.theta).H;
+  H.diagonal() *= 1.0 + 1e-12;
+  const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
+  const double m = static_cast<double>(windows.size());
+  const Eigen::MatrixXd sandwich = inverse * G * inverse * (m / std::max(1.0, m - static_cast<double>(n)));
+  const Eigen::MatrixXd white = inverse * (sse / std::max(1.0, count));
+  Eigen::VectorXd deviations(n);
+  for (Eigen::Index p = 0; p < n; ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double search = std::sqrt(std::max({sandwich(p, p), white(p, p), 0.0})) * units[p];
+    deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
+  }
+  if (correlation != nullptr) {
+    const Eigen::VectorXd scale = inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    *correlation = scale.asDiagonal() * inverse * scale.asDiagonal();
+  }
+  return deviations;
+}
+
+}  // namespace plumbline::validation
