@@ -120,6 +120,54 @@ std::string undecided(const Candidate& candidate, const Refit& refit, const Data
   return "";
 }
 
+void sort_by_error(std::vector<Refit>& refits) {
+  std::stable_sort(refits.begin(), refits.end(),
+                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+}
+
+/// Full refits of those that are near the best.
+void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
+            const Progress& progress) {
+  for (Refit& one : refits) {
+    if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
+      progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
+      continue_refit(one, data, 8);
+    }
+  }
+  sort_by_error(refits);
+}
+
+/// Further starts of the two best candidates: a law with a threshold inside the motion has several minima,
+/// and above the floor the right one may not have been met.
+std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
+                                            const std::vector<Hypothesis>& hypotheses) {
+  constexpr std::size_t kBest = 2;
+  constexpr int kStarts = 3;
+  std::vector<const Hypothesis*> others;
+  for (std::size_t r = 0; r < std::min(kBest, refits.size()); ++r) {
+    int met = 0;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (hypothesis.candidate == refits[r].candidate && met++ > 0 && met <= 1 + kStarts) {
+        others.push_back(&hypothesis);
+      }
+    }
+  }
+  return others;
+}
+
+/// Of several refits of one candidate only the first, which is the best.
+void keep_best_of_each(std::vector<Refit>& refits) {
+  std::vector<Refit> kept;
+  for (Refit& one : refits) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const Refit& other) { return other.candidate == one.candidate; });
+    if (!known) {
+      kept.push_back(std::move(one));
+    }
+  }
+  refits = std::move(kept);
+}
+
 }  // namespace
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
@@ -136,32 +184,32 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
   }
   std::vector<Refit> refits;
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(chosen[i]->candidate)];
-    progress("refitting " + candidate.label(), static_cast<double>(i) / static_cast<double>(chosen.size()));
-    if (refits.size() >= 2 && chosen[i]->promised() > 2.5 * best + 0.3) {
-      continue;  // cannot come near what another one has reached
-    }
+  const auto add = [&](const Hypothesis& hypothesis, double done) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
+    progress("refitting " + candidate.label(), done);
     try {
-      refits.push_back(refit_one(stage, candidate, *chosen[i], data, 4));
-      best = std::min(best, refits.back().square());
+      refits.push_back(refit_one(stage, candidate, hypothesis, data, 4));
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
-      continue;
+      return;  // it cannot be integrated: no explanation of these trials
+    }
+    sort_by_error(refits);
+  };
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    // Far from what another one has reached it cannot come near any more.
+    if (refits.size() < 2 || chosen[i]->promised() <= 2.5 * refits.front().square() + 0.3) {
+      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
     }
   }
-  std::sort(refits.begin(), refits.end(),
-            [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
-  for (Refit& one : refits) {
-    if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
-      progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
-      continue_refit(one, data, 8);
+  finish(refits, candidates, data, progress);
+  if (!refits.empty() && refits.front().square() > 2.0 * options.finished * options.finished) {
+    for (const Hypothesis* other : other_starts(refits, hypotheses)) {
+      add(*other, 0.9);
     }
+    keep_best_of_each(refits);
+    finish(refits, candidates, data, progress);
   }
-  std::sort(refits.begin(), refits.end(),
-            [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
   return refits;
 }
 

@@ -50,29 +50,34 @@ std::pair<int, int> complexity(const std::vector<Candidate>& candidates, const R
   return {refit.own, candidates[static_cast<std::size_t>(refit.candidate)].law->parameter_count()};
 }
 
-/// Refits that predict as well as the best to within what counts as material.
+/// Refits that predict as well as the best, or nearly: a simpler law is named before them.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < refits.size(); ++i) {
-    if (together(refits[i]) < (1.0 + options.material) * together(refits.front())) {
+    if (together(refits[i]) < (1.0 + options.simpler) * together(refits.front())) {
       near.push_back(i);
     }
   }
   return near;
 }
 
-constexpr double kSame =
-    2e-3;  // relative difference of squared errors that the searches themselves may leave
+/// Relative difference of squared errors that the searches themselves may leave.
+constexpr double kSame = 2e-3;
 
-/// Refits of no more parameters that these data cannot tell from the named one: they win in a fair share of
-/// resamples, or leave the same error.
+/// What these data cannot tell from the named law: of no more parameters those that win in a fair share of
+/// resamples or leave the same error; of more parameters those that are surely better, if only by little.
 std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits, const Data& data,
                                    const DiagnoseOptions& options) {
+  constexpr double kFair = 0.05;
   std::vector<std::size_t> rivals;
   for (std::size_t i = 0; i < refits.size(); ++i) {
-    const bool close = refits[i].square() < (1.0 + kSame) * refits[named].square();
-    if (i != named && refits[i].own <= refits[named].own &&
-        (close || share_better(refits[i], refits[named], data, options) > 0.05)) {
+    if (i == named) {
+      continue;
+    }
+    const double wins = share_better(refits[i], refits[named], data, options);
+    const double ratio = refits[i].square() / refits[named].square();
+    const bool smaller = refits[i].own <= refits[named].own;
+    if (smaller ? wins > kFair || ratio < 1.0 + kSame : wins > 1.0 - kFair && ratio < 1.0 - kSame) {
       rivals.push_back(i);
     }
   }

@@ -12,6 +12,7 @@ struct DiagnoseOptions {
   int most_effects = 4;          ///< rounds of acceptance
   int refits = 8;                ///< candidates that are refitted in each round
   double material = 0.05;        ///< least relative fall of the held-out error
+  double simpler = 0.02;         ///< relative rise of the error at which a simpler law is still preferred
   double stable = 0.7;           ///< least share of resamples that choose the effect (or a rival)
   double at_floor = 1.05;        ///< error at which nothing is left to explain
   double finished = 1.2;         ///< error below which what was named is an answer
