@@ -30,7 +30,7 @@ Values ActuatorLag::typical(const Scales& scales) const {
 
 std::vector<Values> ActuatorLag::starts(const Scales& scales) const {
   const double period = guarded(scales).period;
-  return {{0.3 * period}, {3.0 * period}, {10.0 * period}};  // current loops from fast to slow
+  return {{0.1 * period}, {0.5 * period}, {3.0 * period}, {10.0 * period}};  // current loops, fast to slow
 }
 
 double ActuatorLag::torque(double commanded, const double* state, const double* p) const {

@@ -64,7 +64,7 @@ std::vector<Values> LuGre::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
   std::vector<Values> grid;
   for (const double strength : {1e-3, 0.01, 0.1}) {
-    for (const double share : {0.05, 0.4}) {  // presliding deflection as a share of the motion
+    for (const double share : {0.05, 0.15, 0.4}) {  // presliding deflection as a share of the motion
       Values p = null_values();
       p[kLevel] = strength * s.force;
       p[kStribeckSpeed] = 0.3 * s.velocity;

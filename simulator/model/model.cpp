@@ -18,6 +18,12 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
 }
 
 template <typename Item>
+int index_of(const std::vector<Item>& items, const std::string& name) {
+  const Item* item = find_named(items, name);
+  return item == nullptr ? -1 : static_cast<int>(item - items.data());
+}
+
+template <typename Item>
 void append_names(const std::vector<Item>& items, std::vector<std::string>& names) {
   for (const Item& item : items) {
     names.push_back(item.name);
@@ -45,10 +51,9 @@ const Motor* Model::find_motor(const std::string& name) const { return find_name
 const Sensor* Model::find_sensor(const std::string& name) const { return find_named(sensors, name); }
 const Ratio* Model::find_ratio(const std::string& name) const { return find_named(ratios, name); }
 
-int Model::body_index(const std::string& name) const {
-  const Body* body = find_named(skeleton.bodies, name);
-  return body == nullptr ? -1 : static_cast<int>(body - skeleton.bodies.data());
-}
+int Model::body_index(const std::string& name) const { return index_of(skeleton.bodies, name); }
+int Model::motor_index(const std::string& name) const { return index_of(motors, name); }
+int Model::sensor_index(const std::string& name) const { return index_of(sensors, name); }
 
 std::vector<std::string> Model::places(effects::Place place) const {
   std::vector<std::string> names;

@@ -115,6 +115,12 @@ struct Sensor {
   double floor() const;
 };
 
+/// A coordinate or motor held at a value by hand or by a clamp.
+struct Lock {
+  std::string at;
+  double value = 0.0;
+};
+
 struct Model {
   std::string file;  ///< the file the user named
   std::string robot;
@@ -131,7 +137,9 @@ struct Model {
   const Motor* find_motor(const std::string& name) const;
   const Sensor* find_sensor(const std::string& name) const;
   const Ratio* find_ratio(const std::string& name) const;
-  int body_index(const std::string& name) const;  ///< -1
+  int body_index(const std::string& name) const;    ///< -1
+  int motor_index(const std::string& name) const;   ///< -1
+  int sensor_index(const std::string& name) const;  ///< -1
   /// Names of the places where a law may sit, in file order.
   std::vector<std::string> places(effects::Place place) const;
   /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear

@@ -12,12 +12,6 @@
 
 namespace plumbline::model {
 
-/// A coordinate or motor held at a value by hand or by a clamp.
-struct Lock {
-  std::string at;
-  double value = 0.0;
-};
-
 /// A parameter of one of the model's effects.
 struct ParameterId {
   int effect = 0;     ///< index in Model::effects
@@ -76,6 +70,7 @@ class Plant {
 
   /// Pure delay of a motor's command, s.
   double delay(int motor) const;
+  std::vector<double> delays() const;   ///< of all motors
   double torque_gain(int motor) const;  ///< torque per command unit
 
   /// Hidden states in equilibrium with the commands, written behind the positions and velocities of x.

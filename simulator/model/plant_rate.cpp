@@ -34,6 +34,14 @@ double Plant::delay(int motor) const {
   return sum;
 }
 
+std::vector<double> Plant::delays() const {
+  std::vector<double> all;
+  for (int m = 0; m < motors(); ++m) {
+    all.push_back(delay(m));
+  }
+  return all;
+}
+
 // From the command (torque units) through all actuator effects to the delivered torque. State rates are
 // written when xdot is given.
 double Plant::actuator_chain(int motor, const double* x, double commanded, double* xdot) const {

@@ -3,31 +3,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "controllers/cascade_pd.h"
 #include "simulator/integrate/run.h"
+#include "validation/closed_loop/controllers.h"
 
 namespace plumbline::validation {
 namespace {
 
 constexpr Eigen::Index kDifferenceSamples = 2;  // before these, the controller's own past is not recorded
-
-controllers::CascadePd controller_of(const Controller& c, double period) {
-  return controllers::CascadePd({c.position_gain, c.velocity_gain, c.command_limit, period, c.velocity_over});
-}
-
-double disturbance_at(const Controller& c, Eigen::Index k) {
-  return c.disturbance.size() > 0 ? c.disturbance[k] : 0.0;
-}
-
-template <typename Item>
-Eigen::Index index_of(const std::vector<Item>& items, const std::string& name) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].name == name) {
-      return static_cast<Eigen::Index>(i);
-    }
-  }
-  return -1;
-}
 
 /// A controller with its places in the model and its records in the trial.
 struct Loop {
@@ -42,8 +24,8 @@ std::vector<Loop> loops_of(const model::Model& model, const Trial& trial) {
   for (const Controller& controller : trial.controllers) {
     Loop loop;
     loop.controller = &controller;
-    loop.motor = index_of(model.motors, controller.motor);
-    loop.sensor = index_of(model.sensors, controller.sensor);
+    loop.motor = model.motor_index(controller.motor);
+    loop.sensor = model.sensor_index(controller.sensor);
     for (const Measured& measured : trial.measured) {
       loop.measured = measured.sensor == controller.sensor ? &measured.values : loop.measured;
     }
@@ -78,11 +60,11 @@ double percent(const Eigen::VectorXd& measured, const Eigen::VectorXd& simulated
 /// The controller's equation on the recorded measurement, without its disturbance.
 Eigen::VectorXd replayed(const Loop& loop, double period) {
   const Controller& c = *loop.controller;
-  controllers::CascadePd controller = controller_of(c, period);
+  controllers::CascadePd law = law_of(c, period);
   const Eigen::VectorXd& measured = *loop.measured;
   Eigen::VectorXd command(measured.size());
   for (Eigen::Index k = 0; k < measured.size(); ++k) {
-    command[k] = controller.command(c.reference[k], measured[k]);
+    command[k] = law.command(c.reference[k], measured[k]);
   }
   return command;
 }
@@ -99,52 +81,13 @@ void check_equation(const Loop& loop, double period, LoopError& error) {
   error.equation_rms = std::sqrt(rest.squaredNorm() / static_cast<double>(n));
 }
 
-std::vector<double> delays_of(const model::Plant& plant) {
-  std::vector<double> delays;
-  delays.reserve(static_cast<std::size_t>(plant.motors()));
-  for (int m = 0; m < plant.motors(); ++m) {
-    delays.push_back(plant.delay(m));
-  }
-  return delays;
-}
-
-Eigen::MatrixXd recorded_commands(const model::Model& model, const Trial& trial) {
-  Eigen::MatrixXd samples =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), trial.samples());
-  for (const Command& command : trial.commands) {
-    samples.row(index_of(model.motors, command.motor)) = command.values.transpose();
-  }
-  return samples;
-}
-
-/// Controllers that arrive at the start with the motion that x0 has.
-std::vector<controllers::CascadePd> started(const std::vector<Loop>& loops, model::Plant& plant,
-                                            const Eigen::VectorXd& x0, double period) {
-  Eigen::VectorXd y(plant.sensors());
-  Eigen::MatrixXd slope;
-  plant.outputs(x0.data(), y.data());
-  plant.output_jacobian(x0.data(), slope);
-  const Eigen::VectorXd rate = slope * x0.segment(plant.positions(), plant.positions());
-  std::vector<controllers::CascadePd> controllers;
-  for (const Loop& loop : loops) {
-    controllers.push_back(controller_of(*loop.controller, period));
-    controllers.back().reset(y[loop.sensor], rate[loop.sensor]);
-  }
-  return controllers;
-}
-
-integrate::RunResult simulate(Predictor& predictor, const model::Model& model, const Trial& trial,
-                              const std::vector<Loop>& loops, double relative_tolerance) {
+integrate::RunResult simulate(Predictor& predictor, const Trial& trial, double relative_tolerance) {
   model::Plant& plant = predictor.plant();
   const Eigen::VectorXd x0 = predictor.initial_state({0, 0, trial.samples()});
-  std::vector<controllers::CascadePd> controllers = started(loops, plant, x0, trial.period);
+  TrialControllers controllers(plant, trial, x0);
   const integrate::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
                                                    double* command) {
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      const Controller& c = *loops[i].controller;
-      command[loops[i].motor] =
-          controllers[i].command(c.reference[k], y[loops[i].sensor], disturbance_at(c, k));
-    }
+    controllers.command(k, y, command);
     if (!y.allFinite()) {
       throw std::runtime_error("the simulated motion is not finite");
     }
@@ -154,7 +97,8 @@ integrate::RunResult simulate(Predictor& predictor, const model::Model& model, c
   run.events = false;
   run.integrator.relative_tolerance = relative_tolerance;
   run.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, relative_tolerance * 1e-2);
-  const integrate::HeldCommands commands(recorded_commands(model, trial), trial.period, delays_of(plant));
+  const integrate::HeldCommands commands(command_samples(plant.model(), trial.commands, trial.samples()),
+                                         trial.period, plant.delays());
   return integrate::run(plant, x0, commands, trial.time[0], control, {}, run);
 }
 
@@ -169,7 +113,7 @@ ClosedLoop closed_loop(const model::Model& model, const Trial& trial, const Pred
   }
   Predictor predictor(model, trial, options);
   try {
-    const integrate::RunResult run = simulate(predictor, model, trial, loops, options.relative_tolerance);
+    const integrate::RunResult run = simulate(predictor, trial, options.relative_tolerance);
     result.readings = run.readings;
     result.commands = run.commands;
   } catch (const std::runtime_error& error) {

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <random>
 
 #include "validation/predict/deviations.h"
@@ -101,7 +101,11 @@ std::string undecided(const Candidate& candidate, const Refit& refit, const Data
   constexpr double kDeviations = 2.0;
   PredictorPool pool(refit.extended.model, data);
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
-  const Eigen::VectorXd deviations = parameter_deviations(pool, parameters, refit.estimate, nullptr);
+  // The held-out motion may be the one that decides: it is not asked for the value, only whether there is
+  // one.
+  std::vector<int> all(data.windows.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::VectorXd deviations = parameter_deviations(pool, all, parameters, refit.estimate, nullptr);
   const effects::Values values =
       with_values(refit.extended.model, parameters, refit.estimate.theta).effects.back().numbers();
   for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {

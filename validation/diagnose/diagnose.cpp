@@ -87,7 +87,7 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
 /// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
 /// would be stiffer than anything that the samples could show, and cost as much as all others together.
 Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 12.0;
+  constexpr double kLeast = 40.0;
   constexpr double kTimesTheStage = 5.0;
   constexpr double kEvaluationsOfStep = 3.0;
   PredictorPool pool(stage.model, data);
@@ -262,8 +262,8 @@ class Diagnoser {
     const Stage next{with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
                      refit.extended.parameters, refit.estimate};
     PredictorPool pool(next.model, data_);
-    const Eigen::VectorXd deviations =
-        parameter_deviations(pool, refit.extended.parameters, refit.estimate, nullptr);
+    const Eigen::VectorXd deviations = parameter_deviations(
+        pool, data_.windows_of(Role::train), refit.extended.parameters, refit.estimate, nullptr);
     for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
          p < refit.extended.parameters.size(); ++p) {
       const auto i = static_cast<Eigen::Index>(p);

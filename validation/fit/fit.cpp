@@ -157,7 +157,8 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
       estimate(pool, parameters, near.theta, near.x0, {options.iterations, options.tolerance});
   progress("how sure they are", 0.9);
   numbers.after = fitted.theta;
-  numbers.deviations = parameter_deviations(pool, parameters, fitted, &numbers.correlation);
+  numbers.deviations = parameter_deviations(pool, pool.data().windows_of(Role::train), parameters, fitted,
+                                            &numbers.correlation);
   numbers.windows = static_cast<int>(data.windows_of(Role::train).size());
   Fit result;
   result.before = given.scores;

@@ -15,14 +15,6 @@ namespace {
 constexpr double kHighestShare = 0.4;  // of the sample rate
 constexpr double kEdgePeriods = 2.0;   // of the force cutoff
 
-std::vector<model::Lock> locks_of(const Trial& trial) {
-  std::vector<model::Lock> locks;
-  for (const Lock& lock : trial.locks) {
-    locks.push_back({lock.at, lock.value});
-  }
-  return locks;
-}
-
 double bounded(double cutoff, double period) { return std::min(cutoff, kHighestShare / period); }
 
 /// Signals of all independent positions, one row each.
@@ -75,16 +67,14 @@ Motion differentiated(Eigen::MatrixXd z, double period) {
   return motion;
 }
 
+/// Commands as they arrive at the motors: later by the delays.
 Eigen::MatrixXd recorded_commands(const model::Plant& plant, const Trial& trial) {
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(plant.motors(), trial.samples());
-  for (const Command& command : trial.commands) {
-    for (int m = 0; m < plant.motors(); ++m) {
-      if (plant.model().motors[static_cast<std::size_t>(m)].name == command.motor) {
-        const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
-        for (Eigen::Index k = 0; k < trial.samples(); ++k) {
-          u(m, k) = command.values[std::max<Eigen::Index>(0, k - late)];
-        }
-      }
+  const Eigen::MatrixXd sent = command_samples(plant.model(), trial.commands, trial.samples());
+  Eigen::MatrixXd u = sent;
+  for (int m = 0; m < plant.motors(); ++m) {
+    const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
+    for (Eigen::Index k = 0; k < trial.samples(); ++k) {
+      u(m, k) = sent(m, std::max<Eigen::Index>(0, k - late));
     }
   }
   return u;
@@ -215,7 +205,7 @@ double NeededForce::error_percent() const {
 InverseModel inverse_model(const model::Model& model, const Trial& trial,
                            const InverseModelOptions& options) {
   InverseModel result;
-  model::Plant plant(model, locks_of(trial));
+  model::Plant plant(model, trial.locks);
   const Eigen::MatrixXd map = motor_map(plant);
   const std::vector<int> moving = moving_motors(map);
   result.not_available = no_inverse(plant, moving, trial);

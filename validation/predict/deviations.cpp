@@ -6,10 +6,10 @@
 
 namespace plumbline::validation {
 
-Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                     const Estimate& estimate, Eigen::MatrixXd* correlation) {
+Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>& windows,
+                                     const std::vector<FreeParameter>& parameters, const Estimate& estimate,
+                                     Eigen::MatrixXd* correlation) {
   const Data& data = pool.data();
-  const std::vector<int> windows = data.windows_of(Role::train);
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
   const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
   const auto n = static_cast<Eigen::Index>(parameters.size());

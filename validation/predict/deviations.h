@@ -8,9 +8,10 @@
 
 namespace plumbline::validation {
 
-/// Standard deviations of parameters from the windows' own scatter (sandwich estimate over windows), so that
-/// correlated residuals within a window do not make them too small.
-Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                     const Estimate& estimate, Eigen::MatrixXd* correlation);
+/// Standard deviations with which the given windows determine the parameters, from the windows' own scatter
+/// (sandwich estimate over windows), so that correlated residuals within a window do not make them too small.
+Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>& windows,
+                                     const std::vector<FreeParameter>& parameters, const Estimate& estimate,
+                                     Eigen::MatrixXd* correlation);
 
 }  // namespace plumbline::validation

@@ -39,10 +39,10 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
                   const EstimateOptions& options);
 
 /// The estimate with what is known beforehand (Prior), by Gauss-Newton steps on the reduced equations, for
-/// many models in a short time: one
-/// pass over the windows gives the step of the parameters and of all initial states, held-out ones included.
-/// Steps that raise the cost are shortened. Stops when a step promises less than options.tolerance of the
-/// cost. Throws std::runtime_error when the model cannot be integrated from the start values.
+/// many models in a short time: one pass over the windows gives the step of the parameters and of all initial
+/// states, held-out ones included. Steps that raise the cost are shortened. Stops when a step promises less
+/// than options.tolerance of the cost. Throws std::runtime_error when the model cannot be integrated from the
+/// start values.
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);

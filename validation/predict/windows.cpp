@@ -13,14 +13,6 @@
 namespace plumbline::validation {
 namespace {
 
-std::vector<model::Lock> locks_of(const Trial& trial) {
-  std::vector<model::Lock> locks;
-  for (const Lock& lock : trial.locks) {
-    locks.push_back({lock.at, lock.value});
-  }
-  return locks;
-}
-
 /// Samples at which windows may not continue: trial start, events, end.
 std::vector<Eigen::Index> cut_points(const Trial& trial) {
   std::vector<Eigen::Index> cuts{0};
@@ -64,33 +56,19 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
 }
 
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
-    : trial_(trial), options_(options), plant_(model, locks_of(trial)) {
+    : trial_(trial), options_(options), plant_(model, trial.locks) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
-    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
-      if (model.sensors[s].name == trial.measured[c].sensor) {
-        sensor_of_channel_.push_back(static_cast<int>(s));
-        floors_[static_cast<Eigen::Index>(c)] = model.sensors[s].floor();
-      }
-    }
+    const int s = model.sensor_index(trial.measured[c].sensor);
+    sensor_of_channel_.push_back(s);
+    floors_[static_cast<Eigen::Index>(c)] = model.sensors[static_cast<std::size_t>(s)].floor();
   }
-  command_samples_ = Eigen::MatrixXd::Zero(plant_.motors(), trial.samples());
-  for (const Command& command : trial.commands) {
-    for (int m = 0; m < plant_.motors(); ++m) {
-      if (model.motors[static_cast<std::size_t>(m)].name == command.motor) {
-        command_samples_.row(m) = command.values.transpose();
-      }
-    }
-  }
+  command_samples_ = command_samples(model, trial.commands, trial.samples());
   refresh_commands();
 }
 
 void Predictor::refresh_commands() {
-  std::vector<double> delays;
-  for (int m = 0; m < plant_.motors(); ++m) {
-    delays.push_back(plant_.delay(m));
-  }
-  commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, delays);
+  commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, plant_.delays());
 }
 
 // Value and slope of each channel at the window's first sample, from a quadratic over 25 samples around it

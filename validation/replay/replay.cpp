@@ -3,92 +3,14 @@
 #include <chrono>
 #include <cmath>
 
-#include "controllers/cascade_pd.h"
 #include "simulator/model/kinds.h"
 #include "simulator/sensing/encoder.h"
 #include "simulator/trace/error.h"
+#include "validation/closed_loop/controllers.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {
-
-template <typename Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  names.reserve(items.size());
-  for (const Item& item : items) {
-    names.push_back(item.name);
-  }
-  return names;
-}
-
-/// Index of the item with this name, -1 when there is none.
-template <typename Item>
-Eigen::Index index_of(const std::vector<Item>& items, const std::string& name) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].name == name) {
-      return static_cast<Eigen::Index>(i);
-    }
-  }
-  return -1;
-}
-
-Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Command>& commands,
-                                Eigen::Index samples) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), samples);
-  for (const Command& command : commands) {
-    const Eigen::Index motor = index_of(model.motors, command.motor);
-    if (motor >= 0) {
-      all.row(motor) = command.values.transpose();
-    }
-  }
-  return all;
-}
-
-/// A trial's controllers, each with the sensor it reads and the motor it commands.
-class Loops {
- public:
-  /// The controllers arrive with the motion that x0 has: a recording may begin in full swing.
-  Loops(model::Plant& plant, const Trial& trial, const Eigen::VectorXd& x0) {
-    const model::Model& model = plant.model();
-    Eigen::VectorXd y(plant.sensors());
-    plant.outputs(x0.data(), y.data());
-    Eigen::MatrixXd slope;
-    plant.output_jacobian(x0.data(), slope);
-    const Eigen::VectorXd rate = slope * x0.segment(plant.positions(), plant.positions());
-    for (const Controller& known : trial.controllers) {
-      Loop loop{index_of(model.sensors, known.sensor), index_of(model.motors, known.motor),
-                controllers::CascadePd({known.position_gain, known.velocity_gain, known.command_limit,
-                                        trial.period, known.velocity_over}),
-                &known};
-      if (loop.sensor < 0 || loop.motor < 0) {
-        const bool sensor = loop.sensor < 0;
-        throw InputError({trial.file, 0, "controllers"}, sensor ? known.sensor : known.motor,
-                         std::string(sensor ? "a sensor" : "a motor") + " of the model" +
-                             nearest_names(sensor ? known.sensor : known.motor,
-                                           sensor ? names_of(model.sensors) : names_of(model.motors)));
-      }
-      loop.law.reset(y[loop.sensor], rate[loop.sensor]);
-      loops_.push_back(loop);
-    }
-  }
-
-  void command(Eigen::Index sample, const Eigen::VectorXd& readings, double* command) {
-    for (Loop& loop : loops_) {
-      const Eigen::VectorXd& added = loop.known->disturbance;
-      command[loop.motor] = loop.law.command(loop.known->reference[sample], readings[loop.sensor],
-                                             added.size() > 0 ? added[sample] : 0.0);
-    }
-  }
-
- private:
-  struct Loop {
-    Eigen::Index sensor, motor;
-    controllers::CascadePd law;
-    const Controller* known;
-  };
-  std::vector<Loop> loops_;
-};
 
 /// Quantised, without noise: a run is repeatable.
 integrate::Readout readout_of(const model::Model& model) {
@@ -145,12 +67,8 @@ struct Beginning {
   double time = 0.0, period = 1e-3;
 };
 
-Replay run(model::Plant& plant, const Beginning& start, Loops* loops, const ReplayOptions& options) {
-  std::vector<double> delays;
-  delays.reserve(static_cast<std::size_t>(plant.motors()));
-  for (int m = 0; m < plant.motors(); ++m) {
-    delays.push_back(plant.delay(m));
-  }
+Replay run(model::Plant& plant, const Beginning& start, TrialControllers* loops,
+           const ReplayOptions& options) {
   const auto each_sample = [&](Eigen::Index sample, double /*time*/, const Eigen::VectorXd& readings,
                                double* command) {
     if (options.stop != nullptr && options.stop->raised) {
@@ -164,7 +82,7 @@ Replay run(model::Plant& plant, const Beginning& start, Loops* loops, const Repl
   run_options.integrator = options.integrator;
   const auto begin = std::chrono::steady_clock::now();
   Replay replay;
-  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, delays}, start.time,
+  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, plant.delays()}, start.time,
                               each_sample, readout_of(plant.model()), run_options);
   replay.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   replay.duration = start.period * static_cast<double>(start.commands.cols() - 1);
@@ -176,7 +94,7 @@ std::vector<ReplayError> errors_of(const model::Model& model, const Trial& trial
                                    const integrate::RunResult& run) {
   std::vector<ReplayError> errors;
   for (const Measured& channel : trial.measured) {
-    const Eigen::Index s = index_of(model.sensors, channel.sensor);
+    const int s = model.sensor_index(channel.sensor);
     const Eigen::VectorXd difference = channel.values - run.outputs.row(s).transpose();
     errors.push_back({channel.sensor,
                       model::position_unit(model.place_is_angular(effects::Place::sensor, channel.sensor)),
@@ -198,7 +116,7 @@ Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions
                         command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
   Replay result;
   if (options.closed_loop) {
-    Loops loops(plant, trial, start.x0);
+    TrialControllers loops(plant, trial, start.x0);
     result = run(plant, start, &loops, options);
   } else {
     result = run(plant, start, nullptr, options);

@@ -69,4 +69,16 @@ std::string model_of_trial(const std::string& path) {
   return read_model_path(root);
 }
 
+Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Command>& commands,
+                                Eigen::Index samples) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), samples);
+  for (const Command& command : commands) {
+    const int motor = model.motor_index(command.motor);
+    if (motor >= 0) {
+      all.row(motor) = command.values.transpose();
+    }
+  }
+  return all;
+}
+
 }  // namespace plumbline::validation

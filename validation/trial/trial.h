@@ -28,11 +28,7 @@ struct Command {
   Eigen::VectorXd values;  ///< in the motor's command unit (SI of it)
 };
 
-/// A coordinate or motor that was mechanically locked.
-struct Lock {
-  std::string at;
-  double value = 0.0;
-};
+using model::Lock;
 
 /// A controller that ran on the robot and is known: u = velocity_gain (position_gain (r - y) - dy/dt) +
 /// disturbance.
@@ -72,6 +68,10 @@ struct TrialOptions {
 
 /// `path` is a folder or a trial.yaml. The model gives the sensors' and motors' names and units.
 Trial read_trial(const std::string& path, const model::Model& model, const TrialOptions& options = {});
+
+/// Commands sample by sample, motors of the model x samples; zero for a motor without a command.
+Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Command>& commands,
+                                Eigen::Index samples);
 
 /// Only the model file that a trial names (resolved relative to the trial), to read the model first.
 std::string model_of_trial(const std::string& path);

@@ -39,19 +39,6 @@ integrate::Readout readout_of(const model::Model& model, bool quantise, std::mt1
   };
 }
 
-Eigen::MatrixXd command_samples(const model::Model& model, const Experiment& experiment) {
-  Eigen::MatrixXd samples =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.motors.size()), experiment.time.size());
-  for (const Command& command : experiment.commands) {
-    for (std::size_t m = 0; m < model.motors.size(); ++m) {
-      if (model.motors[m].name == command.motor) {
-        samples.row(static_cast<Eigen::Index>(m)) = command.values.transpose();
-      }
-    }
-  }
-  return samples;
-}
-
 }  // namespace
 
 model::EffectUse parse_effect(const std::string& text, const model::Model& model,
@@ -140,7 +127,7 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
   C.middleRows(starts, stretch.rows()) = 1e-2 * stretch;
   C.bottomRows(nz) = 1e-7 * Eigen::MatrixXd::Identity(nz, nz);
   x.head(nz) = C.colPivHouseholderQr().solve(right);
-  const Eigen::MatrixXd samples = command_samples(plant.model(), experiment);
+  const Eigen::MatrixXd samples = command_samples(plant.model(), experiment.commands, experiment.time.size());
   const Eigen::VectorXd first = samples.col(0);
   plant.settle(first.data(), x.data());
   return x;
@@ -149,17 +136,14 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
 Trial twin(const model::Model& model, const Experiment& experiment, const TwinOptions& options) {
   const std::vector<model::Lock> locks = locks_of(model, experiment);
   model::Plant plant(model, locks);
-  std::vector<double> delays;
-  for (int m = 0; m < plant.motors(); ++m) {
-    delays.push_back(plant.delay(m));
-  }
   std::mt19937_64 random(options.seed);
   integrate::RunOptions run;
   run.energy = false;
   run.events = false;
   run.integrator.relative_tolerance = options.relative_tolerance;
   run.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, options.relative_tolerance * 1e-2);
-  const integrate::HeldCommands commands(command_samples(model, experiment), experiment.period, delays);
+  const integrate::HeldCommands commands(command_samples(model, experiment.commands, experiment.time.size()),
+                                         experiment.period, plant.delays());
   const integrate::RunResult result = integrate::run(plant, start_state(plant, experiment), commands, 0.0, {},
                                                      readout_of(model, options.quantise, random), run);
   Trial trial;
