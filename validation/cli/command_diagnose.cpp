@@ -2,6 +2,7 @@
 
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/diagnose/diagnose.h"
@@ -240,6 +241,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->footer("Example:\n  plumbline diagnose demo/siso_mLA demo/siso_mLS demo/mimo --save found.yaml");
   command->callback([options] {
     const effects::Catalogue catalogue = catalogue_for(options->inputs);
+    check_writable(options->save);
     const Loaded loaded = load(options->inputs, effects::Catalogue::all());
     Diagnosis diagnosis;
     {

@@ -6,6 +6,7 @@
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/trial/write_trial.h"
@@ -27,6 +28,8 @@ nlohmann::json truth_of(const TwinInputs& inputs) {
 }
 
 void run(const TwinInputs& inputs) {
+  check_writable(inputs.truth);
+  check_writable(inputs.json);
   const effects::Catalogue catalogue = effects::Catalogue::all();
   const model::Model bare = model::read_model(inputs.model, catalogue);
   model::Model model = bare;

@@ -2,6 +2,7 @@
 
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
+#include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
 #include "validation/inverse_model/inverse_model.h"
 
@@ -44,6 +45,7 @@ effects::Catalogue catalogue_for(const Inputs& inputs) {
 }
 
 Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue) {
+  check_writable(inputs.json);  // before the work, not after it
   const std::string file =
       inputs.model.empty() ? validation::model_of_trial(inputs.trials.front()) : inputs.model;
   Loaded loaded{model::read_model(file, catalogue), nullptr};
