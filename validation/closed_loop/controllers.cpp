@@ -7,18 +7,12 @@
 namespace plumbline::validation {
 namespace {
 
-template <typename Item>
-void require(int index, const std::string& name, const std::string& kind, const std::vector<Item>& items,
-             const Trial& trial) {
-  if (index >= 0) {
-    return;
+void require(int index, const std::string& name, const std::string& kind,
+             const std::vector<std::string>& names, const Trial& trial) {
+  if (index < 0) {
+    throw InputError({trial.file, 0, "controllers"}, name,
+                     "a " + kind + " of the model" + nearest_names(name, names));
   }
-  std::vector<std::string> names;
-  for (const Item& item : items) {
-    names.push_back(item.name);
-  }
-  throw InputError({trial.file, 0, "controllers"}, name,
-                   "a " + kind + " of the model" + nearest_names(name, names));
 }
 
 }  // namespace
@@ -37,8 +31,8 @@ TrialControllers::TrialControllers(model::Plant& plant, const Trial& trial, cons
   for (const Controller& known : trial.controllers) {
     Loop loop{model.sensor_index(known.sensor), model.motor_index(known.motor), law_of(known, trial.period),
               &known};
-    require(loop.sensor, known.sensor, "sensor", model.sensors, trial);
-    require(loop.motor, known.motor, "motor", model.motors, trial);
+    require(loop.sensor, known.sensor, "sensor", model.places(effects::Place::sensor), trial);
+    require(loop.motor, known.motor, "motor", model.places(effects::Place::motor), trial);
     loop.law.reset(y[loop.sensor], rate[loop.sensor]);
     loops_.push_back(loop);
   }

@@ -160,14 +160,14 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   }
 }
 
-// d(hidden states at the window's start)/d(parameters), states x parameters.
+// d(hidden states at the window's start)/d(parameters), states x parameters. The window has been run with the
+// present parameters: its first state holds what they were carried to.
 Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                          const Eigen::VectorXd& steps) {
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(plant_.states(), steps.size());
   const std::vector<int> owners = plant_.force_state_effects();
-  Eigen::VectorXd here = Eigen::VectorXd::Zero(plant_.states());
+  const Eigen::VectorXd here = states_.col(0);
   Eigen::VectorXd there = here;
-  carry_hidden(window, here.data());
   for (std::size_t p = 0; p < ids.size(); ++p) {
     if (std::find(owners.begin(), owners.end(), ids[p].effect) == owners.end()) {
       continue;
