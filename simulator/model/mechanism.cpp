@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include "simulator/model/tree_dynamics.h"
 
 namespace plumbline::model {
 namespace {
@@ -39,37 +42,33 @@ Eigen::Isometry3d along_axis(const Joint& joint) {
 
 }  // namespace
 
+// Simbody holds the tree, its kinematics and its energy. The mass matrix and the bias are assembled from its
+// poses by TreeDynamics: Simbody's own operators would cost one pass over the tree for each column.
 struct Mechanism::Impl {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
   SimTK::State state;
-  SimTK::Vec3 gravity;
+  Eigen::Vector3d gravity;
   std::vector<int> coordinate_of_joint;
   std::vector<SimTK::MobilizedBodyIndex> moving;
-  std::vector<double> masses;
-  std::vector<SimTK::Vec3> coms;
+  std::vector<TreeBody> bodies;
   int size = 0;
-  SimTK::Vector no_udot, no_mobility_force, residual, direction, momentum;
-  SimTK::Vector_<SimTK::SpatialVec> weights;
+  std::unique_ptr<TreeDynamics> tree;
 
-  explicit Impl(const Skeleton& skeleton) : gravity(to_simtk(skeleton.gravity)) {
+  explicit Impl(const Skeleton& skeleton) : gravity(skeleton.gravity) {
     build(skeleton);
     system.realizeTopology();
     state = system.getDefaultState();
     system.realizeModel(state);
     system.realize(state, SimTK::Stage::Instance);
-    no_udot.resize(size);
-    no_udot = 0;
-    no_mobility_force = no_udot;
-    direction = no_udot;
-    weights.resize(matter.getNumBodies());
-    weights = SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0));
+    tree = std::make_unique<TreeDynamics>(bodies, size, gravity);
   }
 
   void build(const Skeleton& skeleton) {
     // Bodies fixed to the world need no mobilizer: they only carry a pose.
     std::vector<SimTK::MobilizedBodyIndex> index(skeleton.bodies.size());
     std::vector<Eigen::Isometry3d> on_index(skeleton.bodies.size(), Eigen::Isometry3d::Identity());
+    std::vector<int> tree_index(skeleton.bodies.size(), -1);
     coordinate_of_joint.assign(skeleton.joints.size(), -1);
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const Joint& joint = skeleton.joints[j];
@@ -88,10 +87,24 @@ struct Mechanism::Impl {
       if (joint.type != JointType::fixed) {
         coordinate_of_joint[j] = size++;
       }
+      tree_index[child] = static_cast<int>(moving.size());
       moving.push_back(index[child]);
-      masses.push_back(skeleton.bodies[child].mass);
-      coms.push_back(to_simtk(skeleton.bodies[child].com));
+      bodies.push_back(tree_body(skeleton.bodies[child], joint, on_world ? -1 : tree_index[parent],
+                                 coordinate_of_joint[j]));
     }
+  }
+
+  static TreeBody tree_body(const Body& body, const Joint& joint, int parent, int coordinate) {
+    TreeBody it;
+    it.parent = parent;
+    it.coordinate = coordinate;
+    it.slides = joint.type == JointType::prismatic;
+    it.axis = joint.X_CJ.linear() * joint.axis.normalized();
+    it.hinge = joint.X_CJ.translation();
+    it.mass = body.mass;
+    it.com = body.com;
+    it.inertia = body.inertia;
+    return it;
   }
 
   SimTK::MobilizedBodyIndex add_mobilizer(const Body& body, const Joint& joint,
@@ -111,13 +124,10 @@ struct Mechanism::Impl {
     return SimTK::MobilizedBody::Weld(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
   }
 
-  /// Only the matter subsystem is realised: the system's other parts (force caches) are not used here and
-  /// would cost a fifth of the evaluation.
-  void realize_velocity() {
-    const SimTK::Subsystem::Guts& guts = matter.getSubsystemGuts();
-    guts.realizeSubsystemTime(state);
-    guts.realizeSubsystemPosition(state);
-    guts.realizeSubsystemVelocity(state);
+  /// Only the matter subsystem is realised: the system's other parts (force caches) are not used here.
+  void realize_position() {
+    matter.getSubsystemGuts().realizeSubsystemTime(state);
+    matter.realizePositionKinematics(state);
   }
 
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
@@ -147,47 +157,32 @@ int Mechanism::coordinate_of_joint(int joint) const {
   return impl_->coordinate_of_joint[static_cast<std::size_t>(joint)];
 }
 
-void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::MatrixXd& S,
-                         Eigen::MatrixXd& M_S, Eigen::VectorXd& h) {
+void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M,
+                         Eigen::VectorXd& h) {
   Impl& d = *impl_;
   d.set_state(q, v);
-  d.realize_velocity();
+  d.realize_position();
   for (std::size_t b = 0; b < d.moving.size(); ++b) {
-    const SimTK::MobilizedBody& body = d.matter.getMobilizedBody(d.moving[b]);
-    const SimTK::Vec3 weight = d.masses[b] * d.gravity;
-    const SimTK::Vec3 arm = body.getBodyRotation(d.state) * d.coms[b];
-    d.weights[d.moving[b]] = SimTK::SpatialVec(arm % weight, weight);
+    const SimTK::Transform& X = d.matter.getMobilizedBody(d.moving[b]).getBodyTransform(d.state);
+    // Simbody stores the rotation's columns side by side, as Eigen does.
+    d.tree->pose(static_cast<int>(b), Eigen::Map<const Eigen::Matrix3d>(&X.R().asMat33()(0, 0)),
+                 Eigen::Map<const Eigen::Vector3d>(&X.p()[0]));
   }
-  d.matter.calcResidualForceIgnoringConstraints(d.state, d.no_mobility_force, d.weights, d.no_udot,
-                                                d.residual);
-  h.resize(d.size);
-  for (int i = 0; i < d.size; ++i) {
-    h[i] = d.residual[i];
-  }
-  M_S.resize(S.cols(), S.cols());
-  for (Eigen::Index c = 0; c < S.cols(); ++c) {
-    for (int i = 0; i < d.size; ++i) {
-      d.direction[i] = S(i, c);
-    }
-    d.matter.multiplyByM(d.state, d.direction, d.momentum);
-    for (Eigen::Index r = 0; r < S.cols(); ++r) {
-      double sum = 0.0;
-      for (int i = 0; i < d.size; ++i) {
-        sum += S(i, r) * d.momentum[i];
-      }
-      M_S(r, c) = sum;
-    }
-  }
+  d.tree->assemble(v, M, h);
 }
 
 double Mechanism::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   Impl& d = *impl_;
   d.set_state(q, v);
-  d.realize_velocity();
+  const SimTK::Subsystem::Guts& guts = d.matter.getSubsystemGuts();
+  guts.realizeSubsystemTime(d.state);
+  guts.realizeSubsystemPosition(d.state);
+  guts.realizeSubsystemVelocity(d.state);
   double potential = 0.0;
   for (std::size_t b = 0; b < d.moving.size(); ++b) {
     const SimTK::MobilizedBody& body = d.matter.getMobilizedBody(d.moving[b]);
-    potential -= d.masses[b] * SimTK::dot(d.gravity, body.findStationLocationInGround(d.state, d.coms[b]));
+    const SimTK::Vec3 com = body.findStationLocationInGround(d.state, to_simtk(d.bodies[b].com));
+    potential -= d.bodies[b].mass * d.gravity.dot(Eigen::Vector3d(com[0], com[1], com[2]));
   }
   return d.matter.calcKineticEnergy(d.state) + potential;
 }

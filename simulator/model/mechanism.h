@@ -24,10 +24,8 @@ class Mechanism {
   /// Index of a joint's coordinate by its place in skeleton.joints; -1 for fixed joints.
   int coordinate_of_joint(int joint) const;
 
-  /// The columns of S are directions of motion: M_S = S' M S, a fraction of the full matrix's cost when there
-  /// are few of them.
-  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::MatrixXd& S,
-                Eigen::MatrixXd& M_S, Eigen::VectorXd& h);
+  /// M, size() x size(), and h.
+  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
 
   /// Gravity's potential plus kinetic energy of the links, J.
   double energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v);

@@ -203,7 +203,7 @@ class Plant {
 
   // Work space of the last evaluation.
   Eigen::VectorXd q_, v_, h_tree_, h_, Q_, torque_, acceleration_;
-  Eigen::MatrixXd M_;
+  Eigen::MatrixXd M_, M_tree_, MS_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd rigid_A_;
   struct Variant {

@@ -8,6 +8,7 @@
 namespace plumbline::model {
 
 using Vector = Eigen::Map<const Eigen::VectorXd>;
+using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
 
 effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
   double position = slot.line.offset;
@@ -71,8 +72,10 @@ void Plant::evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixX
   q_.noalias() = S_tree_ * z;
   q_ += q0_.head(n_tree_);
   v_.noalias() = S_tree_ * w;
-  structure.mechanism->evaluate(q_, v_, S_tree_, M, h_tree_);
-  M += structure.extra_reduced;
+  structure.mechanism->evaluate(q_, v_, M_tree_, h_tree_);
+  MS_.noalias() = M_tree_.lazyProduct(S_tree_);
+  M = structure.extra_reduced;
+  M.noalias() += S_tree_.transpose().lazyProduct(MS_);
   h.noalias() = S_tree_.transpose() * h_tree_;
 }
 
@@ -136,10 +139,10 @@ void Plant::carry_force_states(const double* from, const double* to, double h, d
     const int states = slot.law->state_count();
     const double* p = values(slot.effect);
     double* s = x + slot.state;
-    const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(s, states);
-    Eigen::VectorXd moved = before;
-    Eigen::VectorXd rate(states);
-    Eigen::VectorXd other(states);
+    const Few before = Vector(s, states);
+    Few moved = before;
+    Few rate(states);
+    Few other(states);
     slot.law->state_rate(middle, before.data(), p, rate.data());
     for (int k = 0; k < states; ++k) {
       const double step = 1e-6 * (1.0 + std::abs(before[k]));

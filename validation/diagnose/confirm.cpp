@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "validation/predict/deviations.h"
@@ -103,9 +102,8 @@ std::string undecided(const Candidate& candidate, const Refit& refit, const Data
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
   // The held-out motion may be the one that decides: it is not asked for the value, only whether there is
   // one.
-  std::vector<int> all(data.windows.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Eigen::VectorXd deviations = parameter_deviations(pool, all, parameters, refit.estimate, nullptr);
+  const Eigen::VectorXd deviations =
+      parameter_deviations(pool, data.all_windows(), parameters, refit.estimate, nullptr);
   const effects::Values values =
       with_values(refit.extended.model, parameters, refit.estimate.theta).effects.back().numbers();
   for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {

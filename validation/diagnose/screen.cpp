@@ -120,10 +120,7 @@ std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Ca
       parameters.push_back(std::move(parameter));
     }
   }
-  std::vector<int> windows(data.windows.size());
-  for (std::size_t w = 0; w < windows.size(); ++w) {
-    windows[w] = static_cast<int>(w);
-  }
+  const std::vector<int> windows = data.all_windows();
   Eigen::VectorXd theta = values_of(model, parameters);
   theta.head(stage.estimate.theta.size()) = stage.estimate.theta;
   const Eigen::VectorXd units = search_units(parameters, theta);
@@ -188,17 +185,23 @@ double share_of_error(const Stage& stage, const std::vector<int>& windows, const
   return all > 0.0 && part > 0.0 ? part / all : 1.0;
 }
 
+/// The windows of the costly starts, and what share of the stage's error is theirs.
+struct Part {
+  std::vector<int> windows;
+  double train_share, held_out_share;
+};
+
 void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
-                  const Data& data, const std::vector<int>& windows) {
+                  const Data& data, const Part& part) {
   const Extended extended =
       extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
   PredictorPool pool(extended.model, data);
   const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
   const std::vector<Eigen::VectorXd> measured(data.windows.size());
   const std::vector<Reduced> reduced =
-      reduce(pool, windows, extended.parameters, extended.theta, measured, units);
-  const Sum train = sum_of(reduced, windows, data, Role::train);
-  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
+      reduce(pool, part.windows, extended.parameters, extended.theta, measured, units);
+  const Sum train = sum_of(reduced, part.windows, data, Role::train);
+  const Sum held_out = sum_of(reduced, part.windows, data, Role::held_out);
   std::vector<Eigen::Index> chosen(extended.parameters.size());
   for (std::size_t p = 0; p < chosen.size(); ++p) {
     chosen[p] = static_cast<Eigen::Index>(p);
@@ -211,10 +214,8 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
   }
   const Prior known = prior(extended.parameters, units, extended.theta);
   hypothesis.step = solve_chosen(train, chosen, known, bounds);
-  hypothesis.promised_train =
-      promised_square(train, chosen, hypothesis.step) / share_of_error(stage, windows, data, Role::train);
-  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step) /
-                                 share_of_error(stage, windows, data, Role::held_out);
+  hypothesis.promised_train = promised_square(train, chosen, hypothesis.step) / part.train_share;
+  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step) / part.held_out_share;
 }
 
 void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
@@ -225,7 +226,7 @@ void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
 /// The best of the laws that had to be linearised away from their null value are linearised once more where
 /// their promise leads: theirs is the promise that a straight line keeps worst.
 void look_again(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
-                const std::vector<int>& windows, const Progress& progress, std::vector<Hypothesis>& found) {
+                const Part& part, const Progress& progress, std::vector<Hypothesis>& found) {
   constexpr std::size_t kLooks = 12;
   std::vector<int> seen;
   for (std::size_t h = 0; h < found.size() && seen.size() < kLooks; ++h) {
@@ -243,7 +244,7 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
       continue;
     }
     try {
-      screen_start(stage, candidates, again, data, windows);
+      screen_start(stage, candidates, again, data, part);
       if (again.promised() < found[h].promised()) {
         found[h] = std::move(again);
       }
@@ -301,12 +302,14 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   std::vector<Hypothesis> found = screen_tangents(stage, candidates, tangents, data);
   const std::vector<int> windows = thinned(data);
+  const Part part{windows, share_of_error(stage, windows, data, Role::train),
+                  share_of_error(stage, windows, data, Role::held_out)};
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
     progress("screening " + candidate.label(),
              static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
     try {
-      screen_start(stage, candidates, starts[s], data, windows);
+      screen_start(stage, candidates, starts[s], data, part);
       if (std::isfinite(starts[s].promised())) {
         found.push_back(std::move(starts[s]));
       }
@@ -317,7 +320,7 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
     }
   }
   sort_by_promise(found);
-  look_again(stage, candidates, data, windows, progress, found);
+  look_again(stage, candidates, data, part, progress, found);
   return found;
 }
 

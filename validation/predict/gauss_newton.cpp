@@ -89,10 +89,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options) {
   const Data& data = pool.data();
-  Passes passes{pool, parameters, {}};
-  for (std::size_t w = 0; w < data.windows.size(); ++w) {
-    passes.windows.push_back(static_cast<int>(w));
-  }
+  Passes passes{pool, parameters, data.all_windows()};
   Point here{start, start_x0};
   here.x0.resize(data.windows.size());
   parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {

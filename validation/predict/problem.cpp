@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 namespace plumbline::validation {
@@ -54,6 +55,12 @@ Data Data::thinned(std::size_t most) const {
 
 Role Data::role(std::size_t window) const {
   return trials[static_cast<std::size_t>(windows[window].trial)].role;
+}
+
+std::vector<int> Data::all_windows() const {
+  std::vector<int> all(windows.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 std::vector<int> Data::windows_of(Role wanted) const {

@@ -36,6 +36,7 @@ struct Data {
   /// The same trials with at most `most` windows of each role, spread evenly.
   Data thinned(std::size_t most) const;
   Role role(std::size_t window) const;
+  std::vector<int> all_windows() const;
   std::vector<int> windows_of(Role role) const;
   bool has(Role role) const { return !windows_of(role).empty(); }
 };

@@ -103,7 +103,6 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
   plant_.settle(command.data(), x.data());
-  carry_hidden(window, x.data());
   return x;
 }
 
@@ -209,7 +208,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   refresh_commands();
   states_.resize(plant_.states(), window.count);
   states_.col(0) = x0;
-  carry_hidden(window, states_.col(0).data());  // they depend on the parameters, so x0 cannot know them
+  carry_hidden(window, states_.col(0).data());
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();

@@ -63,10 +63,10 @@ class Predictor {
   const Eigen::VectorXd& floors() const { return floors_; }
 
   /// State at the window's start from the measurements alone: positions by weighted least squares over the
-  /// first samples' local polynomials, unseen stretches zero, actuators settled. Hidden states of force laws
-  /// (bristles) start relaxed with the trial and are carried along the measured motion up to the window: free
-  /// in each window they would be a force of their own, and a friction law would explain whatever is constant
-  /// over a window.
+  /// first samples' local polynomials, unseen stretches zero, actuators settled, bristles relaxed.
+  /// A prediction does not start from these bristles: it carries them along the measured motion up to the
+  /// window with the parameters of the moment. Free in each window they would be a force of their own, and a
+  /// friction law would explain whatever is constant over a window.
   Eigen::VectorXd initial_state(const Window& window);
   /// One standard deviation within which the initial state is expected around initial_state().
   Eigen::VectorXd initial_spread(const Window& window);

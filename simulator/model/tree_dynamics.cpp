@@ -1,0 +1,124 @@
+#include "simulator/model/tree_dynamics.h"
+
+#include <utility>
+
+namespace plumbline::model {
+
+TreeDynamics::TreeDynamics(std::vector<TreeBody> bodies, int coordinates, const Eigen::Vector3d& gravity)
+    : bodies_(std::move(bodies)), size_(coordinates), gravity_(gravity) {
+  const std::size_t n = bodies_.size();
+  R_.assign(n, Eigen::Matrix3d::Identity());
+  p_.assign(n, Eigen::Vector3d::Zero());
+  axis_.assign(n, Vector6::Zero());
+  velocity_ = acceleration_ = force_ = axis_;
+  composite_.resize(n);
+}
+
+void TreeDynamics::pose(int body, const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& p_WB) {
+  const auto b = static_cast<std::size_t>(body);
+  const TreeBody& it = bodies_[b];
+  R_[b] = R_WB;
+  p_[b] = p_WB;
+  const Eigen::Vector3d com = p_WB + R_WB * it.com;
+  composite_[b].mass = it.mass;
+  composite_[b].moment = it.mass * com;
+  composite_[b].rotation.noalias() = R_WB * it.inertia * R_WB.transpose();
+  composite_[b].rotation -= it.mass * com * com.transpose();
+  composite_[b].rotation.diagonal().array() += it.mass * com.squaredNorm();
+  if (it.coordinate < 0) {
+    return;
+  }
+  const Eigen::Vector3d axis = R_WB * it.axis;
+  if (it.slides) {
+    axis_[b] << Eigen::Vector3d::Zero(), axis;
+  } else {
+    axis_[b] << axis, (p_WB + R_WB * it.hinge).cross(axis);
+  }
+}
+
+// [moment about the origin; force]
+TreeDynamics::Vector6 TreeDynamics::times(const Inertia& I, const Vector6& a) {
+  Vector6 f;
+  f.head<3>() = I.rotation * a.head<3>() + I.moment.cross(a.tail<3>());
+  f.tail<3>() = I.mass * a.tail<3>() - I.moment.cross(a.head<3>());
+  return f;
+}
+
+// Velocity, acceleration at dv/dt = 0, and the force that this motion and the weight need.
+void TreeDynamics::move(std::size_t b, const Eigen::VectorXd& v) {
+  const TreeBody& it = bodies_[b];
+  Vector6& V = velocity_[b];
+  Vector6& A = acceleration_[b];
+  if (it.parent < 0) {
+    V.setZero();
+    A.setZero();
+  } else {
+    V = velocity_[static_cast<std::size_t>(it.parent)];
+    A = acceleration_[static_cast<std::size_t>(it.parent)];
+  }
+  if (it.coordinate >= 0) {
+    const Vector6 own = axis_[b] * v[it.coordinate];
+    V += own;
+    A.head<3>() += V.head<3>().cross(own.head<3>());
+    A.tail<3>() += V.head<3>().cross(own.tail<3>()) + V.tail<3>().cross(own.head<3>());
+  }
+  const Inertia& I = composite_[b];  // still the body's own
+  const Vector6 momentum = times(I, V);
+  Vector6& f = force_[b];
+  f = times(I, A);
+  f.head<3>() += V.head<3>().cross(momentum.head<3>()) + V.tail<3>().cross(momentum.tail<3>()) -
+                 I.moment.cross(gravity_);
+  f.tail<3>() += V.head<3>().cross(momentum.tail<3>()) - I.mass * gravity_;
+}
+
+void TreeDynamics::assemble(const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    move(b, v);
+  }
+  M.setZero(size_, size_);
+  h.resize(size_);
+  for (std::size_t b = bodies_.size(); b-- > 0;) {
+    const TreeBody& it = bodies_[b];
+    if (it.coordinate >= 0) {
+      h[it.coordinate] = axis_[b].dot(force_[b]);
+      const Vector6 F = times(composite_[b], axis_[b]);
+      for (int a = static_cast<int>(b); a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+        const int other = bodies_[static_cast<std::size_t>(a)].coordinate;
+        if (other >= 0) {
+          M(it.coordinate, other) = M(other, it.coordinate) = axis_[static_cast<std::size_t>(a)].dot(F);
+        }
+      }
+    }
+    if (it.parent >= 0) {
+      const auto parent = static_cast<std::size_t>(it.parent);
+      force_[parent] += force_[b];
+      composite_[parent].mass += composite_[b].mass;
+      composite_[parent].moment += composite_[b].moment;
+      composite_[parent].rotation += composite_[b].rotation;
+    }
+  }
+}
+
+Eigen::Vector3d TreeDynamics::station(int body, const Eigen::Vector3d& p_B) const {
+  const auto b = static_cast<std::size_t>(body);
+  return p_[b] + R_[b] * p_B;
+}
+
+Eigen::Vector3d TreeDynamics::station_velocity(int body, const Eigen::Vector3d& p_W) const {
+  const Vector6& V = velocity_[static_cast<std::size_t>(body)];
+  return V.tail<3>() + V.head<3>().cross(p_W);
+}
+
+void TreeDynamics::add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
+                             Eigen::VectorXd& Q) const {
+  Vector6 wrench;
+  wrench << p_W.cross(force), force;
+  for (int a = body; a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (coordinate >= 0) {
+      Q[coordinate] += axis_[static_cast<std::size_t>(a)].dot(wrench);
+    }
+  }
+}
+
+}  // namespace plumbline::model

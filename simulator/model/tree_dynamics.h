@@ -1,0 +1,64 @@
+// Mass matrix and bias of a tree of rigid bodies from the bodies' poses.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace plumbline::model {
+
+/// A body of the tree and the joint that carries it.
+struct TreeBody {
+  int parent = -1;          ///< index of the carrying body, before this one; -1: the world
+  int coordinate = -1;      ///< of the joint; -1: welded to its parent
+  bool slides = false;      ///< prismatic; else revolute
+  Eigen::Vector3d axis;     ///< unit vector of the joint, in the body's frame
+  Eigen::Vector3d hinge;    ///< a point on the axis, in the body's frame, m
+  double mass = 0.0;        ///< kg
+  Eigen::Vector3d com;      ///< in the body's frame, m
+  Eigen::Matrix3d inertia;  ///< about the centre of mass, in the body's frame, kg m^2
+};
+
+/// M(q) dv/dt + h(q, v) = Q by the composite rigid body and the recursive Newton-Euler methods, with all
+/// spatial vectors in world axes about the world's origin, where composite inertias are plain sums.
+/// Source: R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, tables 5.1 and 6.2.
+/// Order of use: pose() of every body, then assemble(); stations afterwards.
+class TreeDynamics {
+ public:
+  TreeDynamics(std::vector<TreeBody> bodies, int coordinates, const Eigen::Vector3d& gravity);
+
+  const std::vector<TreeBody>& bodies() const { return bodies_; }
+
+  /// Pose of a body in the world.
+  void pose(int body, const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& p_WB);
+
+  /// M (symmetric, coordinates x coordinates) and h (gravity, Coriolis and centrifugal terms) for rates v.
+  void assemble(const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
+
+  /// Position and velocity in the world of a point fixed on a body, m and m/s.
+  Eigen::Vector3d station(int body, const Eigen::Vector3d& p_B) const;
+  Eigen::Vector3d station_velocity(int body, const Eigen::Vector3d& p_W) const;
+  /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.
+  void add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
+                 Eigen::VectorXd& Q) const;
+
+ private:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;  // [angular; linear at the world's origin]
+  struct Inertia {
+    double mass;
+    Eigen::Vector3d moment;    // mass times position of the centre of mass
+    Eigen::Matrix3d rotation;  // about the world's origin
+  };
+  static Vector6 times(const Inertia& I, const Vector6& a);
+  void move(std::size_t body, const Eigen::VectorXd& v);
+
+  std::vector<TreeBody> bodies_;
+  int size_;
+  Eigen::Vector3d gravity_;
+  std::vector<Eigen::Matrix3d> R_;
+  std::vector<Eigen::Vector3d> p_;
+  std::vector<Vector6> axis_, velocity_, acceleration_, force_;
+  std::vector<Inertia> composite_;
+};
+
+}  // namespace plumbline::model
