@@ -13,7 +13,7 @@ int PlantOde::size() const { return plant_.states() + (with_energy_ ? 2 : 0); }
 void PlantOde::rate(double /*t*/, const double* x, double* xdot) {
   plant_.rate(x, command_.data(), xdot);
   if (with_energy_) {
-    const model::Energetics e = plant_.energetics(x, command_.data());
+    const model::Energetics e = plant_.powers(x);
     xdot[plant_.states()] = e.input;
     xdot[plant_.states() + 1] = e.dissipated;
   }

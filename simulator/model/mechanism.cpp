@@ -52,6 +52,7 @@ struct Mechanism::Impl {
   std::vector<int> coordinate_of_joint;
   std::vector<SimTK::MobilizedBodyIndex> moving;
   std::vector<TreeBody> bodies;
+  std::vector<int> tree_index;  // of each body of the skeleton
   int size = 0;
   std::unique_ptr<TreeDynamics> tree;
 
@@ -68,7 +69,7 @@ struct Mechanism::Impl {
     // Bodies fixed to the world need no mobilizer: they only carry a pose.
     std::vector<SimTK::MobilizedBodyIndex> index(skeleton.bodies.size());
     std::vector<Eigen::Isometry3d> on_index(skeleton.bodies.size(), Eigen::Isometry3d::Identity());
-    std::vector<int> tree_index(skeleton.bodies.size(), -1);
+    tree_index.assign(skeleton.bodies.size(), -1);
     coordinate_of_joint.assign(skeleton.joints.size(), -1);
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const Joint& joint = skeleton.joints[j];
@@ -156,6 +157,10 @@ int Mechanism::size() const { return impl_->size; }
 int Mechanism::coordinate_of_joint(int joint) const {
   return impl_->coordinate_of_joint[static_cast<std::size_t>(joint)];
 }
+
+int Mechanism::tree_body(int body) const { return impl_->tree_index[static_cast<std::size_t>(body)]; }
+
+const TreeDynamics& Mechanism::tree() const { return *impl_->tree; }
 
 void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M,
                          Eigen::VectorXd& h) {

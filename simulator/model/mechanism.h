@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/model/model.h"
+#include "simulator/model/tree_dynamics.h"
 
 namespace plumbline::model {
 
@@ -23,6 +24,11 @@ class Mechanism {
   int size() const;
   /// Index of a joint's coordinate by its place in skeleton.joints; -1 for fixed joints.
   int coordinate_of_joint(int joint) const;
+
+  /// Index in tree() of a skeleton's body; -1 for bodies fixed to the world.
+  int tree_body(int body) const;
+  /// Kinematics at the positions and velocities evaluated last.
+  const TreeDynamics& tree() const;
 
   /// M, size() x size(), and h.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);

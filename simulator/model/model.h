@@ -92,6 +92,14 @@ struct Inertia {
   Quantity value;
 };
 
+/// A point of a link that may meet the ground.
+struct Foot {
+  std::string name;
+  int body = 0;                                     ///< index in Skeleton::bodies
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // p_BF_B
+  std::string source;
+};
+
 /// A use of an effect: a law, its place and its values.
 struct EffectUse {
   std::shared_ptr<const effects::Law> law;
@@ -130,6 +138,7 @@ struct Model {
   std::vector<Motor> motors;
   std::vector<Ratio> ratios;
   std::vector<Inertia> inertias;
+  std::vector<Foot> feet;
   std::vector<EffectUse> effects;
   std::vector<Sensor> sensors;
 

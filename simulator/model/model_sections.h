@@ -17,6 +17,8 @@ void read_motors(const YamlNode& node, Model& model);
 void read_ratios(const YamlNode& node, Model& model);
 void read_inertias(const YamlNode& node, Model& model);
 void read_sensors(const YamlNode& node, Model& model);
+/// feet: points of links that may meet the ground.
+void read_feet(const YamlNode& node, Model& model);
 
 /// One name means one thing among joints, coordinates and motors; a coordinate may share the name of the
 /// joint that it is. `root` gives the line.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulator/trace/error.h"
 
@@ -11,7 +12,8 @@ namespace plumbline::model {
 
 using effects::Place;
 
-Plant::Plant(const Model& model, const std::vector<Lock>& locks) : model_(model) {
+Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain)
+    : model_(model), terrain_(std::move(terrain)) {
   for (const EffectUse& use : model_.effects) {
     values_.push_back(use.numbers());
   }
@@ -24,6 +26,7 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks) : model_(model)
   place_effects();
   place_sensors();
   structure_ = make_structure();
+  find_feet();
   check_mass_matrix();
 }
 
@@ -222,8 +225,9 @@ void Plant::place_effects() {
       }
     }
   }
+  place_ground(next_state);
   nx_ = next_state;
-  switch_count_ = static_cast<int>(g.size());
+  switch_count_ = static_cast<int>(g.size() + feet_.size());
   Eigen::Index released = 0;
   stretch_map_.resize(static_cast<Eigen::Index>(model_.ratios.size()), nz_);
   for (const Ratio& ratio : model_.ratios) {

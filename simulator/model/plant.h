@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/contact_law.h"
+#include "contact/terrain.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
 
@@ -27,6 +29,14 @@ struct SampleMotion {
   double period;                ///< s
 };
 
+/// A foot and the ground under it, in the world's axes.
+struct Touch {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
+  double depth = 0.0;                                  ///< in the ground when above 0, m
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< of the ground on the foot, N
+};
+
 /// Energy of a state and where power goes.
 struct Energetics {
   double stored = 0.0;      ///< kinetic, gravity and springs, J
@@ -43,7 +53,7 @@ struct Energetics {
 class Plant {
  public:
   /// Throws InputError when constraints contradict each other or the mass matrix is singular.
-  Plant(const Model& model, const std::vector<Lock>& locks);
+  Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain = {});
 
   const Model& model() const { return model_; }
   int positions() const { return nz_; }
@@ -68,6 +78,9 @@ class Plant {
   /// Rows that are zero when no released ratio is stretched (for an unobserved start).
   const Eigen::MatrixXd& stretch_map() const { return stretch_map_; }
 
+  /// The model's feet, in its order; one that no ground law holds reads zeros.
+  std::vector<Touch> touches(const double* x);
+
   /// Pure delay of a motor's command, s.
   double delay(int motor) const;
   std::vector<double> delays() const;   ///< of all motors
@@ -83,9 +96,12 @@ class Plant {
 
   /// Switching functions of all force laws.
   int switch_count() const { return switch_count_; }
-  void switches(const double* x, double* g) const;
+  void switches(const double* x, double* g);
 
   Energetics energetics(const double* x, const double* command);
+  /// The same for the state and command that rate() was last called with, `stored` without the rigid bodies'
+  /// share: what an integrated account needs, and much cheaper.
+  Energetics powers(const double* x) const;
 
   /// Static equilibrium near z (velocities zero) under constant commands, by Newton's method.
   /// Throws std::runtime_error when none is found.
@@ -136,6 +152,20 @@ class Plant {
     bool active = true;  // false at null values: costs nothing
     Line line;
   };
+  struct FootSlot {
+    struct Normal {
+      const contact::NormalLaw* law;
+      int effect;
+    };
+    struct Drag {
+      const contact::TangentialLaw* law;
+      int effect, state;
+    };
+    int foot = 0;   // index in the model
+    int body = -1;  // in the mechanism's tree
+    std::vector<Normal> normals;
+    std::vector<Drag> drags;
+  };
   struct ActuatorSlot {
     const effects::ActuatorLaw* law = nullptr;
     int effect = 0;
@@ -163,6 +193,14 @@ class Plant {
   void place_effects();
   void place_force(const effects::ForceLaw& law, int effect, int& next_state);
   void place_sensors();
+  void place_ground(int& next_state);
+  void find_feet();
+  Touch touch(const FootSlot& slot) const;
+  void press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const;
+  void add_ground(const double* x, Eigen::VectorXd& Q, double* xdot);
+  Eigen::MatrixXd foot_jacobian(const FootSlot& slot, const Touch& at) const;
+  void ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void ground_energetics(const double* x, Energetics& e) const;
   Structure make_structure() const;
   void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
   void check_mass_matrix();
@@ -193,6 +231,8 @@ class Plant {
   Eigen::MatrixXd S_, S_tree_;
   Eigen::VectorXd q0_;
   std::vector<ForceSlot> forces_;
+  std::vector<FootSlot> feet_;
+  contact::Terrain terrain_;
   std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
   std::vector<StructureSlot> structures_;
   std::vector<std::vector<SensorSlot>> sensor_effects_;
@@ -202,7 +242,7 @@ class Plant {
   Structure structure_;
 
   // Work space of the last evaluation.
-  Eigen::VectorXd q_, v_, h_tree_, h_, Q_, torque_, acceleration_;
+  Eigen::VectorXd q_, v_, h_tree_, ground_, h_, Q_, torque_, acceleration_;
   Eigen::MatrixXd M_, M_tree_, MS_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::MatrixXd rigid_A_;

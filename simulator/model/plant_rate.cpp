@@ -1,4 +1,5 @@
 // The equations of motion of a Plant.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -95,6 +96,7 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
       slot.law->state_rate(at, state, p, xdot + slot.state);
     }
   }
+  add_ground(x, Q, xdot);
 }
 
 void Plant::rate(const double* x, const double* command, double* xdot) {
@@ -174,24 +176,32 @@ void Plant::settle(const double* command, double* x) const {
   }
 }
 
-void Plant::switches(const double* x, double* g) const {
+void Plant::switches(const double* x, double* g) {
   std::vector<double> all;
   for (const ForceSlot& slot : forces_) {
     slot.law->switches(motion(slot, x), values(slot.effect), all);
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    g[i] = all[i];
+  if (!feet_.empty()) {
+    evaluate_rigid(x, structure_, M_, h_);
   }
+  for (const FootSlot& slot : feet_) {
+    all.push_back(touch(slot).depth);
+  }
+  std::copy(all.begin(), all.end(), g);
 }
 
 Energetics Plant::energetics(const double* x, const double* command) {
   deliver_torques(x, command, nullptr);
-  Energetics e;
-  const Vector z(x, nz_);
+  evaluate_rigid(x, structure_, M_, h_);
+  Energetics e = powers(x);
   const Vector w(x + nz_, nz_);
-  const Eigen::VectorXd q = S_tree_ * z + q0_.head(n_tree_);
-  const Eigen::VectorXd v = S_tree_ * w;
-  e.stored = structure_.mechanism->energy(q, v) + 0.5 * w.dot(structure_.extra_reduced * w);
+  e.stored += structure_.mechanism->energy(q_, v_) + 0.5 * w.dot(structure_.extra_reduced * w);
+  return e;
+}
+
+Energetics Plant::powers(const double* x) const {
+  Energetics e;
+  const Vector w(x + nz_, nz_);
   for (int m = 0; m < motors(); ++m) {
     e.input += torque_[m] * motor_lines_[static_cast<std::size_t>(m)].reduced.dot(w);
   }
@@ -204,6 +214,7 @@ Energetics Plant::energetics(const double* x, const double* command) {
     e.stored += slot.law->stored_energy(at, state, values(slot.effect));
     e.dissipated += slot.law->dissipated_power(at, state, values(slot.effect));
   }
+  ground_energetics(x, e);
   return e;
 }
 

@@ -17,10 +17,10 @@ constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 void Plant::rigid_tangent(const double* x, const double* command) {
   rigid_A_ = Eigen::MatrixXd::Zero(nz_, 2 * nz_);
   deliver_torques(x, command, nullptr);
-  Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
-  add_forces(x, Q, nullptr);
   evaluate_rigid(x, structure_, M_, h_);
   factor_.compute(M_);
+  Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
+  add_forces(x, Q, nullptr);
   const Eigen::VectorXd a0 = factor_.solve(Q - h_);
   Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   Eigen::MatrixXd M;
@@ -94,6 +94,7 @@ void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eig
       A.col(slot.state + k).segment(slot.state, states) += ((up - down) / (2.0 * ds)).head(states);
     }
   }
+  ground_tangent(x, A);
 }
 
 // Hidden states of the actuators act through the delivered torque.

@@ -71,7 +71,7 @@ void read_section(const YamlNode& root, const char* key, void (*read)(const Yaml
 
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const SkeletonReader& skeletons) {
   root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "ratios",
-                   "inertias", "effects", "sensors"});
+                   "inertias", "sensors", "feet", "effects"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
@@ -85,6 +85,7 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const
   check_ratios(root, model);
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "sensors", read_sensors, model);
+  read_section(root, "feet", read_feet, model);
   if (const auto effects = root.find("effects")) {
     read_effects(*effects, catalogue, model);
   }

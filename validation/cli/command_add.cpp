@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
@@ -25,7 +26,7 @@ model::EffectUse parse(const Options& options, const model::Model& model) {
   for (std::size_t i = 0; i < options.set.size(); ++i) {
     text += (i == 0 ? "" : ",") + options.set[i];
   }
-  return validation::parse_effect(text, model, effects::Catalogue::all());
+  return validation::parse_effect(text, model, model::known_effects());
 }
 
 bool is_set(const Options& options, const std::string& parameter) {
@@ -108,7 +109,7 @@ void run(const Options& options) {
   check_writable(options.out);
   check_writable(options.json);
   const std::string base = options.model.empty() ? validation::model_of_trial(options.trial) : options.model;
-  const model::Model model = model::read_model(base, effects::Catalogue::all());
+  const model::Model model = model::read_model(base, model::known_effects());
   check_not_an_input(options.out, read_files(model));
   model::EffectUse use = parse(options, model);
   fill_in(options, model, use);

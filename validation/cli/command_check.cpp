@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/yaml_node.h"
 #include "validation/cli/commands.h"
@@ -29,7 +30,7 @@ bool is_trial(const std::string& path) {
 }
 
 void run(const Options& options) {
-  const effects::Catalogue catalogue = effects::Catalogue::all();
+  const effects::Catalogue catalogue = model::known_effects();
   if (!is_trial(options.path)) {
     const model::Model model = model::read_model(options.path, catalogue);
     const Freedom freedom = freedom_of(model, {});

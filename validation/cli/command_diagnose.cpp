@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
@@ -242,7 +243,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->callback([options] {
     const effects::Catalogue catalogue = catalogue_for(options->inputs);
     check_writable(options->save);
-    const Loaded loaded = load(options->inputs, effects::Catalogue::all());
+    const Loaded loaded = load(options->inputs, model::known_effects());
     Diagnosis diagnosis;
     {
       ProgressLine progress;

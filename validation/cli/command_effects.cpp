@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "simulator/effects/documentation.h"
+#include "simulator/model/known_effects.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
 #include "validation/cli/commands.h"
@@ -102,7 +103,7 @@ void print_details(const Declaration& law) {
 
 /// All laws, or the named one.
 effects::Catalogue chosen(const std::string& name) {
-  effects::Catalogue catalogue = effects::Catalogue::all();
+  effects::Catalogue catalogue = model::known_effects();
   if (name.empty()) {
     return catalogue;
   }

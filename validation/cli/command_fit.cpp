@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
@@ -140,7 +141,7 @@ void save_model(const Fit& fit, const Loaded& loaded, const std::string& file) {
 void run(const Options& options) {
   check_writable(options.out);
   check_writable(options.inputs.json);
-  const Loaded loaded = load(options.inputs, effects::Catalogue::all());
+  const Loaded loaded = load(options.inputs, model::known_effects());
   check_not_an_input(options.out, loaded.model.lineage);
   const auto parameters = validation::matching(validation::free_parameters(loaded.model), options.free);
   Fit fit;

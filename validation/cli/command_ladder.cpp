@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
@@ -76,7 +77,7 @@ std::vector<std::string> model_files(const LadderInputs& ladder) {
   }
   const std::string file = ladder.models.empty() ? validation::model_of_trial(ladder.inputs.trials.front())
                                                  : ladder.models.front();
-  return model::read_model(file, effects::Catalogue::all()).lineage;
+  return model::read_model(file, model::known_effects()).lineage;
 }
 
 Rung climb(const Loaded& loaded, const std::set<std::string>& known) {
@@ -315,7 +316,7 @@ void run(const LadderInputs& ladder) {
              static_cast<double>(i) / static_cast<double>(files.size()));
       Inputs inputs = ladder.inputs;
       inputs.model = files[i];
-      const Loaded loaded = load(inputs, effects::Catalogue::all());
+      const Loaded loaded = load(inputs, model::known_effects());
       rungs.push_back(climb(loaded, known));
       known = effects_of(loaded.model);
     }

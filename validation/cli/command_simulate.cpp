@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
@@ -35,7 +36,7 @@ void check_output(const Options& options) {
 
 Replay replay_trial(const Options& options, std::string& model_file) {
   model_file = options.model.empty() ? validation::model_of_trial(options.trial) : options.model;
-  const model::Model model = model::read_model(model_file, effects::Catalogue::all());
+  const model::Model model = model::read_model(model_file, model::known_effects());
   const validation::Trial trial = validation::read_trial(options.trial, model, {options.data_folder});
   validation::check_command_units(model, trial);
   check_not_an_input(options.out, {trial.data_file});
@@ -43,7 +44,7 @@ Replay replay_trial(const Options& options, std::string& model_file) {
 }
 
 Replay replay_experiment(const Options& options) {
-  const model::Model model = model::read_model(options.model, effects::Catalogue::all());
+  const model::Model model = model::read_model(options.model, model::known_effects());
   return validation::replay(model, validation::read_experiment(options.experiment, model), options.replay);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
@@ -30,7 +31,7 @@ nlohmann::json truth_of(const TwinInputs& inputs) {
 void run(const TwinInputs& inputs) {
   check_writable(inputs.truth);
   check_writable(inputs.json);
-  const effects::Catalogue catalogue = effects::Catalogue::all();
+  const effects::Catalogue catalogue = model::known_effects();
   const model::Model bare = model::read_model(inputs.model, catalogue);
   model::Model model = bare;
   for (const std::string& text : inputs.with) {

@@ -1,5 +1,6 @@
 #include "validation/cli/inputs.h"
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "validation/cli/files.h"
@@ -30,7 +31,7 @@ void add_trial_inputs(CLI::App& command, Inputs& inputs) {
 }
 
 effects::Catalogue catalogue_for(const Inputs& inputs) {
-  effects::Catalogue catalogue = effects::Catalogue::all();
+  effects::Catalogue catalogue = model::known_effects();
   for (const std::string& name : inputs.without) {
     if (!catalogue.find(name)) {
       std::vector<std::string> known;

@@ -169,6 +169,9 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
   PlaceMotions motions(pool, parameters, estimate);
   std::vector<Candidate> candidates;
   for (const auto& law : catalogue.laws()) {
+    if (law->sits_at(Place::foot)) {
+      continue;  // windows are not cut at contact yet
+    }
     Place place = Place::coordinate;
     for (const auto& [at, same] : joined_places(plant, *law, &place)) {
       place = model.resolve(*law, at);
