@@ -80,6 +80,8 @@ std::vector<std::string> Model::places(effects::Place place) const {
     case effects::Place::world:
       names.emplace_back("world");
       break;
+    case effects::Place::foot:  // a model has no feet yet
+      break;
   }
   return names;
 }
@@ -98,6 +100,8 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
       const Sensor* sensor = find_sensor(at);
       return sensor == nullptr || is_angular(*this, sensor->measures);
     }
+    case effects::Place::foot:
+      return false;
     case effects::Place::body:
     case effects::Place::world:
       break;
