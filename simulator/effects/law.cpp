@@ -81,6 +81,8 @@ std::string to_string(Place place) {
       return "sensor";
     case Place::world:
       return "world";
+    case Place::foot:
+      return "foot";
   }
   return "unknown";
 }

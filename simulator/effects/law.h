@@ -11,8 +11,9 @@ namespace plumbline::effects {
 /// Where an effect can sit.
 /// coordinate: a named scalar position (joint or linear combination); motor: a motor's own coordinate;
 /// ratio: a rigid coupling of a motor to coordinates, which the effect releases;
-/// body: a link's mass properties; sensor: one measured channel; world: gravity.
-enum class Place { coordinate, motor, ratio, body, sensor, world };
+/// body: a link's mass properties; sensor: one measured channel; world: gravity;
+/// foot: a point that meets the ground (laws in contact/).
+enum class Place { coordinate, motor, ratio, body, sensor, world, foot };
 
 /// The line along which a parameter is searched: as it is, by its logarithm (positive scales such as a
 /// speed), or by its reciprocal (stiffnesses whose null value is infinite).

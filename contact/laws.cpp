@@ -1,0 +1,13 @@
+#include "contact/laws.h"
+
+#include "contact/ground_friction.h"
+#include "contact/ground_normal.h"
+
+namespace plumbline::contact {
+
+// A new law of the ground is one line here (and one file pair).
+std::vector<std::shared_ptr<const effects::Law>> ground_laws() {
+  return {std::make_shared<const GroundNormal>(), std::make_shared<const GroundFriction>()};
+}
+
+}  // namespace plumbline::contact
