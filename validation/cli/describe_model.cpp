@@ -69,9 +69,9 @@ json effects_json(const Model& model) {
 }
 
 const std::vector<effects::Place>& all_places() {
-  static const std::vector<effects::Place> kPlaces{effects::Place::coordinate, effects::Place::motor,
-                                                   effects::Place::ratio,      effects::Place::body,
-                                                   effects::Place::sensor,     effects::Place::world};
+  static const std::vector<effects::Place> kPlaces{
+      effects::Place::coordinate, effects::Place::motor, effects::Place::ratio, effects::Place::body,
+      effects::Place::sensor,     effects::Place::world, effects::Place::foot};
   return kPlaces;
 }
 

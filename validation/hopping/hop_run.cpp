@@ -1,0 +1,192 @@
+#include "validation/hopping/hop_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "simulator/integrate/plant_ode.h"
+#include "validation/hopping/hopping_loop.h"
+
+namespace plumbline::validation {
+namespace {
+
+using controllers::HoppingPhase;
+
+constexpr double kLowestHip = -0.5;  // m, against a level boom at 1 m
+constexpr double kLargestTorso = 1.0;  // rad
+constexpr double kLongestPhase = 1.5;  // s
+
+/// What is looked at in a run, from the sensors' true positions.
+class Watch {
+ public:
+  Watch(const model::Model& model, const controllers::HoppingConfig& config)
+      : config_(config), in_the_plane_(model.sensor_index("boom_pitch") < 0) {
+    torso_ = model.sensor_index("torso");
+    travel_ = model.sensor_index(in_the_plane_ ? "hip_x" : "tower");
+    height_ = model.sensor_index(in_the_plane_ ? "hip_z" : "boom_pitch");
+    for (const char* side : {"_left", "_right"}) {
+      legs_.push_back({model.sensor_index(std::string("mLA") + side), model.sensor_index(std::string("mLS") + side),
+                       model.sensor_index(std::string("thigh") + side),
+                       model.sensor_index(std::string("knee") + side), model.sensor_index(std::string("bsp") + side)});
+    }
+  }
+
+  double torso(const Eigen::VectorXd& y) const { return y[torso_]; }
+  double travel(const Eigen::VectorXd& y) const {
+    return in_the_plane_ ? y[travel_] : config_.boom_length * y[travel_];
+  }
+  double height(const Eigen::VectorXd& y) const {
+    return in_the_plane_ ? y[height_] : config_.boom_length * std::sin(y[height_]);
+  }
+  /// Largest |c(q)| of both legs, equation 23: of the leg angle, of the leg shape.
+  std::pair<double, double> stretch(const Eigen::VectorXd& y) const {
+    double angle = 0.0;
+    double shape = 0.0;
+    for (const Leg& leg : legs_) {
+      const double LA = y[leg.thigh] + 0.5 * y[leg.knee];
+      const double LS = -0.5 * y[leg.knee];
+      const controllers::HoppingParameters& p = config_.parameters;
+      angle = std::max(angle, std::abs(y[leg.mLA] - p.gamma_LA_to_mLA * LA));
+      shape = std::max(shape, std::abs(y[leg.mLS] - p.gamma_LS_to_mLS * (LS - y[leg.bsp] / kShapeToSpring)));
+    }
+    return {angle, shape};
+  }
+
+ private:
+  static constexpr double kShapeToSpring = 5.18;  // equation 7
+  struct Leg {
+    int mLA, mLS, thigh, knee, bsp;
+  };
+  controllers::HoppingConfig config_;
+  bool in_the_plane_;
+  int torso_ = 0, travel_ = 0, height_ = 0;
+  std::vector<Leg> legs_;
+};
+
+/// Gathers hops while the run goes on.
+class Counter {
+ public:
+  Counter(const Watch& watch, HopRun& run) : watch_(watch), run_(run) {}
+
+  void feet(double t, const std::vector<model::Touch>& touches) {
+    for (std::size_t f = 0; f < 2; ++f) {
+      const bool down = touches[f].depth > 0.0;
+      if (down && !down_[f]) {
+        since_[f] = t;
+      }
+      down_[f] = down;
+    }
+  }
+
+  void sample(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& command,
+              const controllers::Hopping& controller) {
+    const auto [angle, shape] = watch_.stretch(y);
+    now_.largest_stretch_LA = std::max(now_.largest_stretch_LA, angle);
+    now_.largest_stretch_LS = std::max(now_.largest_stretch_LS, shape);
+    for (Eigen::Index m = 0; m + 1 < command.size(); m += 2) {
+      now_.largest_torque_mLA = std::max(now_.largest_torque_mLA, std::abs(command[m]));
+      now_.largest_torque_mLS = std::max(now_.largest_torque_mLS, std::abs(command[m + 1]));
+    }
+    now_.lowest_hip = std::min(now_.lowest_hip, watch_.height(y));
+    now_.highest_hip = std::max(now_.highest_hip, watch_.height(y));
+    const bool first = !landed_ && controller.phase() == HoppingPhase::touchdown;
+    if (first || controller.hops() > static_cast<long>(run_.hops.size())) {
+      land(t, y, controller);
+    }
+  }
+
+ private:
+  void land(double t, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
+    if (landed_) {
+      now_.landing = t;
+      now_.period = t - last_time_;
+      now_.travel = watch_.travel(y) - last_travel_;
+      now_.torso = watch_.torso(y);
+      now_.torso_wanted = controller.h_T_d();
+      now_.touchdown_gap = std::abs(since_[0] - since_[1]);
+      run_.hops.push_back(now_);
+    }
+    landed_ = true;
+    last_time_ = t;
+    last_travel_ = watch_.travel(y);
+    now_ = Hop();
+    now_.lowest_hip = now_.highest_hip = watch_.height(y);
+  }
+
+  const Watch& watch_;
+  HopRun& run_;
+  Hop now_;
+  bool landed_ = false;
+  double last_time_ = 0.0, last_travel_ = 0.0;
+  bool down_[2] = {false, false};
+  double since_[2] = {0.0, 0.0};
+};
+
+std::string fall(const Watch& watch, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
+  if (!y.allFinite()) {
+    return "the state is not finite";
+  }
+  if (watch.height(y) < kLowestHip) {
+    return "fell: the hip is down";
+  }
+  if (std::abs(watch.torso(y)) > kLargestTorso) {
+    return std::string("fell ") + (watch.torso(y) > 0.0 ? "backward" : "forward") + ": the torso has turned over";
+  }
+  if (controller.time_in_phase() > kLongestPhase) {
+    return std::string("stays in phase ") + to_string(controller.phase());
+  }
+  return "";
+}
+
+}  // namespace
+
+HopOptions::HopOptions() {
+  integrator.method = integrate::Method::implicit_rk;
+  integrator.relative_tolerance = 1e-5;
+  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-7);
+}
+
+HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, const HopStart& start,
+           const HopOptions& options) {
+  model::Plant plant(model, {});
+  HoppingLoop loop(model, config);
+  const Watch watch(model, config);
+  HopRun run;
+  Counter counter(watch, run);
+  integrate::PlantOde ode(plant, false, false);
+  integrate::Integrator integrator(ode, options.integrator);
+  integrator.start(0.0, start_state(plant, config, start));
+  Eigen::VectorXd y(plant.sensors());
+  Eigen::VectorXd command = Eigen::VectorXd::Zero(plant.motors());
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    for (long k = 0;; ++k) {
+      run.time = static_cast<double>(k) * config.period;
+      const Eigen::VectorXd& x = integrator.state();
+      plant.outputs(x.data(), y.data());
+      const std::vector<model::Touch> touches = plant.touches(x.data());
+      loop.command(y, touches, command.data());
+      counter.feet(run.time, touches);
+      counter.sample(run.time, y, command, loop.controller());
+      run.end = fall(watch, y, loop.controller());
+      run.fell = !run.end.empty();
+      if (run.fell || static_cast<long>(run.hops.size()) >= options.hops || run.time >= options.longest) {
+        break;
+      }
+      std::copy(command.data(), command.data() + command.size(), ode.command());
+      integrator.input_changed(true);
+      integrator.advance(static_cast<double>(k + 1) * config.period);
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    run.fell = true;
+    run.end = error.what();
+  }
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.summary = integrator.summary();
+  return run;
+}
+
+}  // namespace plumbline::validation
