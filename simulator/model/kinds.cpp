@@ -28,6 +28,14 @@ std::vector<std::string> coordinate_names(const Model& model) {
 
 std::vector<std::string> motor_names(const Model& model) { return model.places(effects::Place::motor); }
 
+std::vector<std::string> pulley_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Pulley& pulley : model.pulleys) {
+    names.push_back(pulley.name);
+  }
+  return names;
+}
+
 std::vector<std::string> position_names(const Model& model) {
   std::vector<std::string> names = motor_names(model);
   const std::vector<std::string> coordinates = coordinate_names(model);

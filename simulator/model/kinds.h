@@ -16,15 +16,17 @@ inline std::string inertia_unit(bool angular) { return angular ? "kg m^2" : "kg"
 std::string ratio_unit(bool motor_angular, bool coordinate_angular);
 
 std::vector<std::string> joint_names(const Skeleton& skeleton);  ///< moving joints
+/// Coordinates, then pulleys, which count as coordinates wherever one is named.
 std::vector<std::string> coordinate_names(const Model& model);
 std::vector<std::string> motor_names(const Model& model);
-/// Coordinates and motors.
+std::vector<std::string> pulley_names(const Model& model);
+/// Coordinates, pulleys and motors.
 std::vector<std::string> position_names(const Model& model);
 
 /// The moving joint of this name or nullptr.
 const Joint* find_joint(const Skeleton& skeleton, const std::string& name);
 
-/// Whether the motor, coordinate or moving joint of this name turns (unknown names count as turning).
+/// Whether the motor, coordinate, pulley or moving joint of this name turns (unknown names count as turning).
 bool is_angular(const Model& model, const std::string& name);
 
 /// Letters, digits, and _ . - in a name that a model file gives; throws InputError otherwise.

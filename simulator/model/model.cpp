@@ -48,6 +48,7 @@ const Coordinate* Model::find_coordinate(const std::string& name) const {
   return find_named(coordinates, name);
 }
 const Motor* Model::find_motor(const std::string& name) const { return find_named(motors, name); }
+const Pulley* Model::find_pulley(const std::string& name) const { return find_named(pulleys, name); }
 const Sensor* Model::find_sensor(const std::string& name) const { return find_named(sensors, name); }
 const Ratio* Model::find_ratio(const std::string& name) const { return find_named(ratios, name); }
 
@@ -60,6 +61,7 @@ std::vector<std::string> Model::places(effects::Place place) const {
   switch (place) {
     case effects::Place::coordinate:
       append_names(coordinates, names);
+      append_names(pulleys, names);
       break;
     case effects::Place::motor:
       append_names(motors, names);

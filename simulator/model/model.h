@@ -53,13 +53,14 @@ struct Skeleton {
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
 };
 
-/// factor * (joint or motor position)
+/// factor * (joint, pulley or coordinate position)
 struct Term {
   std::string of;
   double factor = 1.0;
 };
 
-/// A named scalar: sum of terms over joints. Joints that model.yaml does not name are not places for effects.
+/// A named scalar: sum of terms over joints and pulleys. Joints that model.yaml does not name are not places
+/// for effects.
 struct Coordinate {
   std::string name;
   bool angular = true;
@@ -76,11 +77,18 @@ struct Motor {
   std::string command_unit = "N m";
 };
 
+/// A pulley that turns on its own axis relative to its mount: a position and an inertia of its own, no
+/// command. A place for the effects of coordinates.
+struct Pulley {
+  std::string name;
+  Quantity inertia;  ///< kg m^2
+};
+
 /// position(motor) = sum ratio_i * position(coordinate_i); rigid unless an effect releases it.
 /// Named by the coordinate it mainly drives (the first).
 struct Ratio {
   std::string name;   ///< == to.front().of
-  std::string motor;  ///< motor or joint on the left-hand side
+  std::string motor;  ///< motor, pulley or joint on the left-hand side
   std::vector<Term> to;
   std::vector<Quantity> ratios;
 };
@@ -114,7 +122,7 @@ struct EffectUse {
 /// One measured channel.
 struct Sensor {
   std::string name;
-  std::string measures;   ///< coordinate or motor
+  std::string measures;   ///< coordinate, motor or pulley
   double resolution = 0;  ///< position per count, SI; 0: continuous
   double offset = 0;      ///< SI
   double noise = 0;       ///< standard deviation, SI
@@ -136,6 +144,7 @@ struct Model {
   Skeleton skeleton;
   std::vector<Coordinate> coordinates;
   std::vector<Motor> motors;
+  std::vector<Pulley> pulleys;
   std::vector<Ratio> ratios;
   std::vector<Inertia> inertias;
   std::vector<Foot> feet;
@@ -144,6 +153,7 @@ struct Model {
 
   const Coordinate* find_coordinate(const std::string& name) const;
   const Motor* find_motor(const std::string& name) const;
+  const Pulley* find_pulley(const std::string& name) const;
   const Sensor* find_sensor(const std::string& name) const;
   const Ratio* find_ratio(const std::string& name) const;
   int body_index(const std::string& name) const;    ///< -1

@@ -19,7 +19,7 @@ bool is_that_joint(const Coordinate& coordinate) {
          coordinate.terms.front().factor == 1.0;
 }
 
-/// Joints and motors side by side, each with its column in the ratios' linear system.
+/// Joints, motors and pulleys side by side, each with its column in the ratios' linear system.
 class Columns {
  public:
   explicit Columns(const Model& model) : names_(joint_names(model.skeleton)) {
@@ -27,10 +27,13 @@ class Columns {
     for (const Motor& motor : model.motors) {
       names_.push_back(motor.name);
     }
+    const std::vector<std::string> pulleys = pulley_names(model);
+    names_.insert(names_.end(), pulleys.begin(), pulleys.end());
   }
   Eigen::Index count() const { return static_cast<Eigen::Index>(names_.size()); }
   const std::string& name(Eigen::Index i) const { return names_[static_cast<std::size_t>(i)]; }
   Eigen::Index joint(const std::string& name) const { return index(name, 0, joints_); }
+  /// Of a motor or pulley.
   Eigen::Index motor(const std::string& name) const { return index(name, joints_, names_.size()); }
 
  private:
@@ -52,8 +55,13 @@ Eigen::RowVectorXd row_of(const Ratio& ratio, const Model& model, const Columns&
   const Eigen::Index motor = columns.motor(ratio.motor);
   row[motor >= 0 ? motor : columns.joint(ratio.motor)] = 1.0;
   for (const Term& to : ratio.to) {
-    for (const Term& joint : model.find_coordinate(to.of)->terms) {
-      row[columns.joint(joint.of)] -= to.factor * joint.factor;
+    if (model.find_pulley(to.of) != nullptr) {
+      row[columns.motor(to.of)] -= to.factor;
+      continue;
+    }
+    for (const Term& term : model.find_coordinate(to.of)->terms) {
+      const bool pulley = model.find_pulley(term.of) != nullptr;
+      row[pulley ? columns.motor(term.of) : columns.joint(term.of)] -= to.factor * term.factor;
     }
   }
   const double largest = row.cwiseAbs().maxCoeff();
@@ -130,6 +138,13 @@ void check_names(const YamlNode& root, const Model& model) {
     if (names_joint(motor.name) || model.find_coordinate(motor.name) != nullptr) {
       entry_of(root, "motors", motor.name)
           .refuse("the name of a joint or coordinate", "a name that only this motor has");
+    }
+  }
+  for (const Pulley& pulley : model.pulleys) {
+    if (names_joint(pulley.name) || model.find_coordinate(pulley.name) != nullptr ||
+        model.find_motor(pulley.name) != nullptr) {
+      entry_of(root, "pulleys", pulley.name)
+          .refuse("the name of a joint, coordinate or motor", "a name that only this pulley has");
     }
   }
 }

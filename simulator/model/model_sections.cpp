@@ -56,8 +56,11 @@ Coordinate read_coordinate(const std::string& name, const YamlNode& node, const 
   coordinate.name = name;
   const YamlNode of = node.at("of");
   for (const auto& [joint, factor] : of.entries()) {
-    require_known(factor, joint, joint_names(model.skeleton), "moving joint of the skeleton");
-    const bool angular = find_joint(model.skeleton, joint)->type == JointType::revolute;
+    const bool pulley = model.find_pulley(joint) != nullptr;
+    if (!pulley) {
+      require_known(factor, joint, joint_names(model.skeleton), "moving joint of the skeleton");
+    }
+    const bool angular = pulley || find_joint(model.skeleton, joint)->type == JointType::revolute;
     if (!coordinate.terms.empty() && angular != coordinate.angular) {
       factor.refuse(angular ? "a rotary joint beside linear ones" : "a linear joint beside rotary ones",
                     "joints of one kind");
@@ -132,8 +135,7 @@ Motor read_motor(const std::string& name, const YamlNode& node) {
 
 void add_term(const std::string& coordinate, const YamlNode& quantity, const Model& model, Ratio& ratio) {
   require_known(quantity, coordinate, coordinate_names(model), "coordinate");
-  const std::string unit =
-      ratio_unit(is_angular(model, ratio.motor), model.find_coordinate(coordinate)->angular);
+  const std::string unit = ratio_unit(is_angular(model, ratio.motor), is_angular(model, coordinate));
   ratio.ratios.push_back(read_quantity(quantity, {unit, Sign::not_zero, false, {}}));
   const auto same = [&](const Term& term) { return term.of == coordinate; };
   if (std::any_of(ratio.to.begin(), ratio.to.end(), same)) {
@@ -142,12 +144,16 @@ void add_term(const std::string& coordinate, const YamlNode& quantity, const Mod
   ratio.to.push_back({coordinate, ratio.ratios.back().value});
 }
 
-Ratio read_joint_tie(const std::string& name, const YamlNode& node, const Model& model) {
-  node.allow_keys({"joint", "of"});
+/// A joint or pulley that is tied to coordinates.
+Ratio read_tie(const std::string& name, const YamlNode& node, const Model& model) {
+  const bool pulley = node.has("pulley");
+  const char* key = pulley ? "pulley" : "joint";
+  node.allow_keys({key, "of"});
   Ratio ratio;
   ratio.name = name;
-  ratio.motor = node.at("joint").text();
-  require_known(node.at("joint"), ratio.motor, joint_names(model.skeleton), "moving joint of the skeleton");
+  ratio.motor = node.at(key).text();
+  require_known(node.at(key), ratio.motor, pulley ? pulley_names(model) : joint_names(model.skeleton),
+                pulley ? "pulley" : "moving joint of the skeleton");
   for (const auto& [coordinate, quantity] : node.at("of").entries()) {
     add_term(coordinate, quantity, model, ratio);
   }
@@ -158,7 +164,7 @@ Ratio read_joint_tie(const std::string& name, const YamlNode& node, const Model&
 }
 
 Ratio read_motor_ratio(const std::string& name, const YamlNode& node, const Model& model) {
-  node.allow_keys({"motor", "ratio", "also", "joint", "of"});
+  node.allow_keys({"motor", "ratio", "also", "joint", "pulley", "of"});
   require_known(node, name, coordinate_names(model), "coordinate");
   Ratio ratio;
   ratio.name = name;
@@ -170,9 +176,9 @@ Ratio read_motor_ratio(const std::string& name, const YamlNode& node, const Mode
       add_term(coordinate, quantity, model, ratio);
     }
   }
-  for (const char* key : {"joint", "of"}) {
+  for (const char* key : {"joint", "pulley", "of"}) {
     if (const auto misplaced = node.find(key)) {
-      misplaced->refuse("this key beside `motor`", "either motor and ratio, or joint and of");
+      misplaced->refuse("this key beside `motor`", "either motor and ratio, or joint (or pulley) and of");
     }
   }
   return ratio;
@@ -224,7 +230,7 @@ Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& m
       measurable.push_back(joint);
     }
   }
-  require_known(node.at("measures"), sensor.measures, measurable, "coordinate, motor or joint");
+  require_known(node.at("measures"), sensor.measures, measurable, "coordinate, motor, pulley or joint");
   const bool angular = is_angular(model, sensor.measures);
   sensor.resolution = read_resolution(node, angular, sensor.source);
   if (const auto offset = node.find("offset")) {
@@ -285,11 +291,20 @@ void read_motors(const YamlNode& node, Model& model) {
   }
 }
 
+void read_pulleys(const YamlNode& node, Model& model) {
+  for (const auto& [name, entry] : node.entries()) {
+    check_name(name, entry);
+    entry.allow_keys({"inertia"});
+    model.pulleys.push_back(
+        {name, read_quantity(entry.at("inertia"), {inertia_unit(true), Sign::positive, false, {}})});
+  }
+}
+
 void read_ratios(const YamlNode& node, Model& model) {
   for (const auto& [name, entry] : node.entries()) {
     check_name(name, entry);
-    const bool tie = entry.has("joint") && !entry.has("motor");
-    model.ratios.push_back(tie ? read_joint_tie(name, entry, model) : read_motor_ratio(name, entry, model));
+    const bool tie = (entry.has("joint") || entry.has("pulley")) && !entry.has("motor");
+    model.ratios.push_back(tie ? read_tie(name, entry, model) : read_motor_ratio(name, entry, model));
   }
 }
 

@@ -10,18 +10,19 @@ namespace plumbline::model {
 void read_gravity(const YamlNode& node, Model& model);
 /// masses: uncertainty of the skeleton's masses.
 void read_masses(const YamlNode& node, Model& model);
-/// coordinates: sums of joints, all rotary or all linear.
+/// coordinates: sums of joints and pulleys, all rotary or all linear; needs pulleys.
 void read_coordinates(const YamlNode& node, Model& model);
 void read_motors(const YamlNode& node, Model& model);
-/// ratios: needs coordinates and motors.
+void read_pulleys(const YamlNode& node, Model& model);
+/// ratios: needs coordinates, motors and pulleys.
 void read_ratios(const YamlNode& node, Model& model);
 void read_inertias(const YamlNode& node, Model& model);
 void read_sensors(const YamlNode& node, Model& model);
 /// feet: points of links that may meet the ground.
 void read_feet(const YamlNode& node, Model& model);
 
-/// One name means one thing among joints, coordinates and motors; a coordinate may share the name of the
-/// joint that it is. `root` gives the line.
+/// One name means one thing among joints, coordinates, motors and pulleys; a coordinate may share the name of
+/// the joint that it is. `root` gives the line.
 void check_names(const YamlNode& root, const Model& model);
 
 /// Refuses ratios that repeat each other, or that together hold a joint or motor still.

@@ -20,7 +20,7 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   for (const Joint& joint : model_.skeleton.joints) {
     n_tree_ += joint.type == JointType::fixed ? 0 : 1;
   }
-  n_ = n_tree_ + motors();
+  n_ = n_tree_ + motors() + static_cast<int>(model_.pulleys.size());
   torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
   reduce(locks);
   place_effects();
@@ -37,6 +37,10 @@ Eigen::VectorXd Plant::full_direction(const std::string& name) const {
       direction[n_tree_ + m] = 1.0;
       return direction;
     }
+  }
+  if (const Pulley* pulley = model_.find_pulley(name)) {
+    direction[n_tree_ + motors() + (pulley - model_.pulleys.data())] = 1.0;
+    return direction;
   }
   if (const Coordinate* coordinate = model_.find_coordinate(name)) {
     for (const Term& term : coordinate->terms) {
@@ -60,7 +64,7 @@ Eigen::VectorXd Plant::full_direction(const std::string& name) const {
     }
     ++index;
   }
-  throw InputError(model_.file + ": no joint, coordinate or motor is named '" + name + "'");
+  throw InputError(model_.file + ": no joint, coordinate, motor or pulley is named '" + name + "'");
 }
 
 // c(q) = q_from - sum ratio_i q_i (Park et al., equation 23).
@@ -264,7 +268,9 @@ void Plant::apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::V
                          std::to_string(mass) + " kg, expected more than 0");
       }
       // A payload changes the inertia in proportion, as if the link's own material were denser.
-      body.inertia *= mass / body.mass;
+      if (body.mass > 0.0) {
+        body.inertia *= mass / body.mass;
+      }
       body.mass = mass;
       body.com += change.com_shift;
       return;
@@ -289,6 +295,9 @@ Plant::Structure Plant::make_structure() const {
   structure.extra_inertia = Eigen::VectorXd::Zero(n_);
   for (int m = 0; m < motors(); ++m) {
     structure.extra_inertia[n_tree_ + m] = model_.motors[static_cast<std::size_t>(m)].rotor_inertia.value;
+  }
+  for (std::size_t p = 0; p < model_.pulleys.size(); ++p) {
+    structure.extra_inertia[n_tree_ + motors() + static_cast<int>(p)] = model_.pulleys[p].inertia.value;
   }
   for (const StructureSlot& slot : structures_) {
     apply_change(slot, skeleton, structure.extra_inertia);

@@ -45,11 +45,11 @@ struct Energetics {
 };
 
 /// The state is x = [z, dz/dt, hidden states], z the independent positions that the rigid ratios and locks
-/// leave: q = S z + q0 for the full coordinates q (joints, then motors). Ratios are linear with constant
+/// leave: q = S z + q0 for the full coordinates q (joints, motors, pulleys). Ratios are linear with constant
 /// coefficients, so this elimination is exact and nothing drifts:
 ///   (S' M S) d2z/dt2 = S' (Q - h).
-/// Motors turn relative to their mount; the mount's own motion adds nothing to the rotor's energy (exact for
-/// a fixed mount). Not thread-safe: one object for each thread.
+/// Motors and pulleys turn relative to their mount; the mount's own motion adds nothing to their energy
+/// (exact for a fixed mount). Not thread-safe: one object for each thread.
 class Plant {
  public:
   /// Throws InputError when constraints contradict each other or the mass matrix is singular.
@@ -181,7 +181,7 @@ class Plant {
   };
   struct Structure {
     std::unique_ptr<Mechanism> mechanism;
-    Eigen::VectorXd extra_inertia;  // on joints and motors, full coordinates, diagonal
+    Eigen::VectorXd extra_inertia;  // on all full coordinates, diagonal
     Eigen::MatrixXd extra_reduced;  // S' (diag + pulleys) S
   };
 

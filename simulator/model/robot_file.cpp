@@ -70,14 +70,15 @@ void read_section(const YamlNode& root, const char* key, void (*read)(const Yaml
 }
 
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const SkeletonReader& skeletons) {
-  root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "ratios",
-                   "inertias", "sensors", "feet", "effects"});
+  root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "pulleys",
+                   "ratios", "inertias", "sensors", "feet", "effects"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
   model.skeleton = skeletons(skeleton_path(root.at("skeleton")));
   read_section(root, "gravity", read_gravity, model);
   read_section(root, "masses", read_masses, model);
+  read_section(root, "pulleys", read_pulleys, model);
   read_section(root, "coordinates", read_coordinates, model);
   read_section(root, "motors", read_motors, model);
   check_names(root, model);

@@ -176,15 +176,17 @@ class TreeBuilder {
     }
   }
 
-  /// A joint that moves must move mass: that of its own link or of links fixed to it.
+  /// A joint that moves must move mass: that of its own link or of links further out. (Links without mass
+  /// between two moving joints are how a base moves along several axes.)
   void refuse_moving_massless(const Skeleton& skeleton) const {
     std::vector<double> carried(skeleton.bodies.size());
     for (std::size_t i = skeleton.bodies.size(); i-- > 0;) {
       carried[i] += skeleton.bodies[i].mass;
       const Joint& joint = skeleton.joints[i];
-      if (joint.type == JointType::fixed && joint.parent >= 0) {
+      if (joint.parent >= 0) {
         carried[static_cast<std::size_t>(joint.parent)] += carried[i];
-      } else if (joint.type != JointType::fixed && carried[i] <= 0.0) {
+      }
+      if (joint.type != JointType::fixed && carried[i] <= 0.0) {
         const std::string& name = skeleton.bodies[i].name;
         xml_.refuse({name, xml_.line_of_link(name)}, "no <inertial> of a link that moves",
                     "its mass, centre of mass and inertia");

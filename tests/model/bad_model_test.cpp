@@ -181,6 +181,41 @@ TEST_F(BadModelTest, Names) {
   });
 }
 
+TEST_F(BadModelTest, Pulleys) {
+  const auto with = [](const std::string& pulleys) { return "pulleys:\n" + pulleys + "inertias:\n"; };
+  const std::string good = "  drum: {inertia: {value: 1, unit: g m^2, source: s}}\n";
+  check_all({
+      {"inertias:\n", with("  drum: {}\n"), "  drum:", "pulleys.drum", "no \"inertia\"", "the key"},
+      {"inertias:\n", with("  drum: 3\n"), "  drum:", "pulleys.drum", "\"3\"", "a map"},
+      {"inertias:\n", with("  drum: {inertia: {value: 0, unit: kg m^2, source: s}}\n"),
+       "  drum:", "pulleys.drum.inertia.value", "\"0\"", "above zero"},
+      {"inertias:\n", with("  drum: {inertia: {value: 1, unit: kg, source: s}}\n"),
+       "  drum:", "pulleys.drum.inertia.unit", "unit \"kg\"", "\"kg m^2\""},
+      {"inertias:\n", with("  drum: {inertia: {value: 1, unit: kg m^2}}\n"),
+       "  drum:", "pulleys.drum.inertia", "no source", "assumed: reason"},
+      {"inertias:\n", with("  drum: {inertia: {value: 1, unit: g m^2, source: s}, command_unit: V}\n"),
+       "  drum:", "pulleys.drum.command_unit", "an unknown key", "inertia"},
+      {"inertias:\n", with("  elbow: {inertia: {value: 1, unit: g m^2, source: s}}\n"), "  elbow: {i",
+       "pulleys.elbow", "the name of a joint, coordinate or motor", "only this pulley"},
+      {"inertias:\n", with("  mTip: {inertia: {value: 1, unit: g m^2, source: s}}\n"), "  mTip: {i",
+       "pulleys.mTip", "the name of a joint, coordinate or motor", "only this pulley"},
+      {"inertias:\n", with("  tip: {inertia: {value: 1, unit: g m^2, source: s}}\n"), "  tip: {i",
+       "pulleys.tip", "the name of a joint, coordinate or motor", "only this pulley"},
+      {"inertias:\n", with("  a drum: {inertia: {value: 1, unit: g m^2, source: s}}\n"), "  a drum",
+       "pulleys.a drum", "name \"a drum\"", "letters"},
+      {"inertias:\n",
+       "  drum:\n    pulley: drim\n    of: {tip: {value: 2, unit: \"1\", source: s}}\n" + with(good),
+       "    pulley: drim", "ratios.drum.pulley", "\"drim\"", "a pulley; did you mean drum?"},
+      {"inertias:\n",
+       "  drum:\n    pulley: drum\n    of: {rail: {value: 2, unit: \"1\", source: s}}\n" + with(good),
+       "    of: {rail", "ratios.drum.of.rail.unit", "unit \"1\"", "\"rad/m\""},
+      {"inertias:\n", "    pulley: drum\n" + with(good), "    pulley: drum", "ratios.tip.pulley",
+       "this key beside `motor`", "either motor and ratio, or joint (or pulley) and of"},
+      {"of: {shoulder: 1, elbow: 0.5}", "of: {shoulder: 1, drum: 0.5}", "", "coordinates.tip.of.drum",
+       "\"drum\"", "the name of a moving joint of the skeleton"},
+  });
+}
+
 TEST_F(BadModelTest, Effects) {
   check_all({
       {"effect: drag", "effect: drug", "", "effects.1.effect", "\"drug\"", "did you mean drag?"},

@@ -108,6 +108,14 @@ json motors_json(const Model& model) {
   return list;
 }
 
+json pulleys_json(const Model& model) {
+  json list = json::array();
+  for (const model::Pulley& pulley : model.pulleys) {
+    list.push_back({{"name", pulley.name}, {"inertia", to_json(pulley.inertia, model::inertia_unit(true))}});
+  }
+  return list;
+}
+
 json ratios_json(const Model& model) {
   json list = json::array();
   for (const model::Ratio& ratio : model.ratios) {
@@ -158,6 +166,14 @@ void print_drivetrain(const Model& model) {
   fmt::print("\nMotors:\n\n");
   print_table({"name", "command", "rotor inertia", "torque constant", "limit"}, rows);
   rows.clear();
+  for (const model::Pulley& pulley : model.pulleys) {
+    rows.push_back({pulley.name, fmt::format("{:g} {}", pulley.inertia.value, model::inertia_unit(true))});
+  }
+  if (!rows.empty()) {
+    fmt::print("\nPulleys:\n\n");
+    print_table({"name", "inertia"}, rows);
+    rows.clear();
+  }
   for (const model::Ratio& ratio : model.ratios) {
     rows.push_back({ratio.name, ratio.motor + " = " + sum_text(ratio.to)});
   }
@@ -223,6 +239,7 @@ json to_json(const Model& model, const Freedom& freedom) {
           {"bodies", bodies_json(model)},
           {"coordinates", coordinates_json(model)},
           {"motors", motors_json(model)},
+          {"pulleys", pulleys_json(model)},
           {"ratios", ratios_json(model)},
           {"inertias", inertias_json(model)},
           {"effects", effects_json(model)},

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "simulator/integrate/plant_ode.h"
+#include "simulator/trace/error.h"
 #include "validation/hopping/hopping_loop.h"
 
 namespace plumbline::validation {
@@ -25,11 +26,6 @@ class Watch {
     torso_ = model.sensor_index("torso");
     travel_ = model.sensor_index(in_the_plane_ ? "hip_x" : "tower");
     height_ = model.sensor_index(in_the_plane_ ? "hip_z" : "boom_pitch");
-    for (const char* side : {"_left", "_right"}) {
-      legs_.push_back({model.sensor_index(std::string("mLA") + side), model.sensor_index(std::string("mLS") + side),
-                       model.sensor_index(std::string("thigh") + side),
-                       model.sensor_index(std::string("knee") + side), model.sensor_index(std::string("bsp") + side)});
-    }
   }
 
   double torso(const Eigen::VectorXd& y) const { return y[torso_]; }
@@ -39,29 +35,10 @@ class Watch {
   double height(const Eigen::VectorXd& y) const {
     return in_the_plane_ ? y[height_] : config_.boom_length * std::sin(y[height_]);
   }
-  /// Largest |c(q)| of both legs, equation 23: of the leg angle, of the leg shape.
-  std::pair<double, double> stretch(const Eigen::VectorXd& y) const {
-    double angle = 0.0;
-    double shape = 0.0;
-    for (const Leg& leg : legs_) {
-      const double LA = y[leg.thigh] + 0.5 * y[leg.knee];
-      const double LS = -0.5 * y[leg.knee];
-      const controllers::HoppingParameters& p = config_.parameters;
-      angle = std::max(angle, std::abs(y[leg.mLA] - p.gamma_LA_to_mLA * LA));
-      shape = std::max(shape, std::abs(y[leg.mLS] - p.gamma_LS_to_mLS * (LS - y[leg.bsp] / kShapeToSpring)));
-    }
-    return {angle, shape};
-  }
-
  private:
-  static constexpr double kShapeToSpring = 5.18;  // equation 7
-  struct Leg {
-    int mLA, mLS, thigh, knee, bsp;
-  };
   controllers::HoppingConfig config_;
   bool in_the_plane_;
   int torso_ = 0, travel_ = 0, height_ = 0;
-  std::vector<Leg> legs_;
 };
 
 /// Gathers hops while the run goes on.
@@ -79,15 +56,17 @@ class Counter {
     }
   }
 
-  void sample(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& command,
-              const controllers::Hopping& controller) {
-    const auto [angle, shape] = watch_.stretch(y);
-    now_.largest_stretch_LA = std::max(now_.largest_stretch_LA, angle);
-    now_.largest_stretch_LS = std::max(now_.largest_stretch_LS, shape);
-    for (Eigen::Index m = 0; m + 1 < command.size(); m += 2) {
-      now_.largest_torque_mLA = std::max(now_.largest_torque_mLA, std::abs(command[m]));
-      now_.largest_torque_mLS = std::max(now_.largest_torque_mLS, std::abs(command[m + 1]));
-    }
+  void load(const controllers::HoppingTorques& torques, double stretch_LA, double stretch_LS) {
+    const auto raise = [](double& most, double value) { most = std::max(most, std::abs(value)); };
+    raise(now_.largest_torque_mLA, torques.mLA_left);
+    raise(now_.largest_torque_mLA, torques.mLA_right);
+    raise(now_.largest_torque_mLS, torques.mLS_left);
+    raise(now_.largest_torque_mLS, torques.mLS_right);
+    raise(now_.largest_stretch_LA, stretch_LA);
+    raise(now_.largest_stretch_LS, stretch_LS);
+  }
+
+  void sample(double t, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
     now_.lowest_hip = std::min(now_.lowest_hip, watch_.height(y));
     now_.highest_hip = std::max(now_.highest_hip, watch_.height(y));
     const bool first = !landed_ && controller.phase() == HoppingPhase::touchdown;
@@ -122,6 +101,15 @@ class Counter {
   bool down_[2] = {false, false};
   double since_[2] = {0.0, 0.0};
 };
+
+/// The larger |c(q)| of both legs (equation 23), rad of motor.
+double stretch(const model::Plant& plant, const std::string& ratio, const Eigen::VectorXd& x) {
+  double most = 0.0;
+  for (const char* side : {"_left", "_right"}) {
+    most = std::max(most, std::abs(plant.motion_at(effects::Place::ratio, ratio + side, x.data()).position));
+  }
+  return most;
+}
 
 std::string fall(const Watch& watch, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
   if (!y.allFinite()) {
@@ -168,7 +156,8 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
       const std::vector<model::Touch> touches = plant.touches(x.data());
       loop.command(y, touches, command.data());
       counter.feet(run.time, touches);
-      counter.sample(run.time, y, command, loop.controller());
+      counter.load(loop.torques(), stretch(plant, "leg_angle", x), stretch(plant, "leg_shape", x));
+      counter.sample(run.time, y, loop.controller());
       run.end = fall(watch, y, loop.controller());
       run.fell = !run.end.empty();
       if (run.fell || static_cast<long>(run.hops.size()) >= options.hops || run.time >= options.longest) {

@@ -98,11 +98,11 @@ void HoppingLoop::command(const Eigen::VectorXd& outputs, const std::vector<mode
   sample.boom_pitch = boom_pitch_.counts(outputs);
   sample.left_contact = touches[static_cast<std::size_t>(left_.foot)].depth > 0.0;
   sample.right_contact = touches[static_cast<std::size_t>(right_.foot)].depth > 0.0;
-  const controllers::HoppingTorques torques = controller_.command(sample);
-  command[left_.motor_mLA] = torques.mLA_left;
-  command[left_.motor_mLS] = torques.mLS_left;
-  command[right_.motor_mLA] = torques.mLA_right;
-  command[right_.motor_mLS] = torques.mLS_right;
+  torques_ = controller_.command(sample);
+  command[left_.motor_mLA] = torques_.mLA_left;
+  command[left_.motor_mLS] = torques_.mLS_left;
+  command[right_.motor_mLA] = torques_.mLA_right;
+  command[right_.motor_mLS] = torques_.mLS_right;
 }
 
 }  // namespace plumbline::validation

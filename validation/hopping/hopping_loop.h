@@ -23,6 +23,7 @@ class HoppingLoop {
   void command(const Eigen::VectorXd& outputs, const std::vector<model::Touch>& touches, double* command);
 
   const controllers::Hopping& controller() const { return controller_; }
+  const controllers::HoppingTorques& torques() const { return torques_; }  ///< of the last command
   const controllers::HoppingConfig& config() const { return config_; }
 
  private:
@@ -45,6 +46,7 @@ class HoppingLoop {
   Encoder torso_, tower_, boom_pitch_;
   controllers::HoppingConfig config_;
   controllers::Hopping controller_;
+  controllers::HoppingTorques torques_;
 };
 
 }  // namespace plumbline::validation

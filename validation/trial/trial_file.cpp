@@ -228,10 +228,15 @@ std::string placed_unit(const YamlNode& node, const std::string& name, const Mod
   if (const model::Motor* motor = model.find_motor(name)) {
     return position_unit(motor->angular);
   }
+  if (model.find_pulley(name) != nullptr) {
+    return position_unit(true);
+  }
   std::vector<std::string> known = names_of(model.coordinates);
   const std::vector<std::string> motors = names_of(model.motors);
   known.insert(known.end(), motors.begin(), motors.end());
-  node.refuse(quote(name), "a coordinate or motor of the model" + nearest_names(name, known));
+  const std::vector<std::string> pulleys = names_of(model.pulleys);
+  known.insert(known.end(), pulleys.begin(), pulleys.end());
+  node.refuse(quote(name), "a coordinate, motor or pulley of the model" + nearest_names(name, known));
 }
 
 const model::Motor& known_motor(const YamlNode& node, const std::string& name, const Model& model) {

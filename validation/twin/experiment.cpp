@@ -46,7 +46,7 @@ std::vector<Start> read_start(const YamlNode& node, const Model& model) {
   std::vector<Start> start;
   for (const auto& [name, entry] : node.entries()) {
     const std::string unit = placed_unit(entry, name, model);
-    if (model.find_coordinate(name) == nullptr) {
+    if (model.find_motor(name) != nullptr) {
       entry.refuse("motor " + model::quote(name), "coordinates; a motor starts where its coordinates put it");
     }
     start.push_back({name, read_physical(entry, unit, name)});
