@@ -1,16 +1,12 @@
 // Runge-Kutta methods: ARKODE's ARKStep, explicit or diagonally implicit.
 #include <arkode/arkode_arkstep.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 
-#include "simulator/integrate/backend.h"
 #include "simulator/integrate/handles.h"
+#include "simulator/integrate/one_step_backend.h"
 #include "simulator/integrate/step_control.h"
-#include "simulator/integrate/switch_search.h"
 
 namespace plumbline::integrate {
 
@@ -35,14 +31,17 @@ ARKODE_DIRKTableID implicit_table(int order) {
   return tables[order - 2];
 }
 
-class ArkodeBackend : public Backend {
+class ArkodeBackend : public OneStepBackend {
  public:
   ArkodeBackend(Bridge& bridge, const Options& options);
 
   void start(double t, const Eigen::VectorXd& x) override;
-  void input_changed(bool keep_history) override;
-  bool advance(double t_stop) override;
   Counts counts() const override;
+
+ protected:
+  void step(double t_stop) override;
+  void steps(double t_stop) override;
+  void moved() override;
 
  private:
   static int choose_step(N_Vector y, realtype t, realtype h1, realtype h2, realtype h3, realtype e1,
@@ -52,9 +51,6 @@ class ArkodeBackend : public Backend {
   void set_method();
   void require(int flag);
   void evolve(double t_stop, int task);
-  void go_to(double t, const Eigen::VectorXd& x, double t_stop);
-  void reset();
-  void locate(double t_before, double t_after);
 
   Context context_ = make_context();
   Vector vector_, tolerance_view_;
@@ -63,29 +59,18 @@ class ArkodeBackend : public Backend {
   std::unique_ptr<void, FreeArkode> memory_;
   int order_ = 0;
   StepControl control_;
-  long restarts_ = 0;
-  bool fresh_ = true;            // no step since the start
-  bool switches_known_ = false;  // g_ belongs to the present state
-  Eigen::VectorXd x_before_, g_, g_before_;
+  bool fresh_ = true;  // no step since the start
 };
-
-/// How closely a switch found within a step of size h to time t is located.
-double time_tolerance(double t, double h) {
-  return std::max(1e-11 * h, 256.0 * std::numeric_limits<double>::epsilon() * (std::abs(t) + h));
-}
 
 bool explicit_method(const Options& options) { return options.method == Method::explicit_rk; }
 
 ArkodeBackend::ArkodeBackend(Bridge& bridge, const Options& options)
-    : Backend(bridge, options),
+    : OneStepBackend(bridge, options),
       vector_(view(x_, context_)),
       tolerance_(options.absolute_tolerance),
       memory_(ARKStepCreate(explicit_method(options) ? Bridge::rate : nullptr,
                             explicit_method(options) ? nullptr : Bridge::rate, 0.0, vector_.get(),
-                            context_.get())),
-      x_before_(x_),
-      g_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions_.size()))),
-      g_before_(g_) {
+                            context_.get())) {
   tolerance_view_ = view(tolerance_, context_);
   configure();
   if (!explicit_method(options_)) configure_implicit();
@@ -164,15 +149,11 @@ void ArkodeBackend::start(double t, const Eigen::VectorXd& x) {
                         is_explicit ? nullptr : Bridge::rate, t_, vector_.get()));
   // The embedded method has one order less; its local error has the method's order.
   control_ = StepControl(order_);
-  restarts_ = 0;
+  forget_switches();
   fresh_ = true;
-  switches_known_ = false;
 }
 
-// Every step begins with the rate at its own beginning: nothing old is kept that a new input would falsify.
-void ArkodeBackend::input_changed(bool /*keep_history*/) {}
-
-void ArkodeBackend::reset() { require(ARKStepReset(memory_.get(), t_, vector_.get())); }
+void ArkodeBackend::moved() { require(ARKStepReset(memory_.get(), t_, vector_.get())); }
 
 void ArkodeBackend::evolve(double t_stop, int task) {
   control_.set_stop(t_, t_stop);
@@ -182,69 +163,9 @@ void ArkodeBackend::evolve(double t_stop, int task) {
   fresh_ = false;
 }
 
-bool ArkodeBackend::advance(double t_stop) {
-  if (directions_.empty()) {
-    evolve(t_stop, ARK_NORMAL);
-    return false;
-  }
-  if (!switches_known_) bridge_.switches_at(t_, x_, g_);
-  const double t_before = t_;
-  x_before_ = x_;
-  g_before_ = g_;
-  evolve(t_stop, ARK_ONE_STEP);
-  bridge_.switches_at(t_, x_, g_);
-  switches_known_ = true;
-  const bool found = any_changes_sign(g_before_, g_);
-  if (found) locate(t_before, t_);
-  return found;
-}
+void ArkodeBackend::step(double t_stop) { evolve(t_stop, ARK_ONE_STEP); }
 
-void ArkodeBackend::go_to(double t, const Eigen::VectorXd& x, double t_stop) {
-  t_ = t;
-  x_ = x;
-  reset();
-  while (t_ < t_stop) evolve(t_stop, ARK_NORMAL);
-}
-
-// The interpolant says where the switch is to about its own error; each integration to that place measures
-// the error there, and so moves the next guess by a factor h^3 closer.
-void ArkodeBackend::locate(double t_before, double t_after) {
-  Eigen::VectorXd x_behind = x_;
-  const Eigen::VectorXd x_after = x_;
-  Eigen::VectorXd f_before(x_.size()), f_after(x_.size()), x_model(x_.size()), g_model(g_.size());
-  Eigen::VectorXd defect = Eigen::VectorXd::Zero(g_.size());
-  bridge_.rate_at(t_before, x_before_, f_before);
-  bridge_.rate_at(t_after, x_after, f_after);
-  const CubicHermite model(t_before, x_before_, f_before, t_after, x_after, f_after);
-  const auto model_switches = [&](double t) -> const Eigen::VectorXd& {
-    model.at(t, x_model);
-    bridge_.switches_at(t, x_model, g_model);
-    return g_model;
-  };
-  SwitchBracket bracket(t_before, g_before_, t_after, g_);
-  const double tolerance = time_tolerance(t_after, bracket.width());
-  for (int trial = 0; bracket.width() > tolerance; ++trial) {
-    SwitchBracket search = bracket;
-    while (search.width() > 0.25 * tolerance) {
-      const double t = search.guess();
-      search.narrow(t, model_switches(t) + defect);
-    }
-    if (bracket.hi() - search.hi() <= tolerance) break;
-    // The model is no help where it does not converge: then halve.
-    const double guess = trial < 8 ? search.hi() + 0.5 * tolerance : 0.5 * (bracket.lo() + bracket.hi());
-    go_to(t_before, x_before_, guess);
-    bridge_.switches_at(t_, x_, g_);
-    defect = g_ - model_switches(t_);
-    bracket.narrow(t_, g_);
-    if (bracket.hi() == t_) x_behind = x_;
-  }
-  t_ = bracket.hi();
-  x_ = x_behind;
-  bridge_.switches_at(t_, x_, g_);
-  bracket.directions(directions_);
-  reset();
-  ++restarts_;
-}
+void ArkodeBackend::steps(double t_stop) { evolve(t_stop, ARK_NORMAL); }
 
 Counts ArkodeBackend::counts() const {
   Counts counts;

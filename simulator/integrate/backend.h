@@ -1,4 +1,4 @@
-// One integration method of SUNDIALS, as the Integrator drives it.
+// One integration method, as the Integrator drives it.
 #pragma once
 
 #include <Eigen/Core>
@@ -51,5 +51,6 @@ class Backend {
 /// options: valid, with one absolute tolerance for each state.
 std::unique_ptr<Backend> make_cvode_backend(Bridge& bridge, const Options& options);
 std::unique_ptr<Backend> make_arkode_backend(Bridge& bridge, const Options& options);
+std::unique_ptr<Backend> make_rosenbrock_backend(Bridge& bridge, const Options& options);
 
 }  // namespace plumbline::integrate

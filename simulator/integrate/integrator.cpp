@@ -27,8 +27,16 @@ Options complete(Options options, int states) {
 }
 
 std::unique_ptr<Backend> make_backend(Bridge& bridge, const Options& options) {
-  return options.method == Method::bdf ? make_cvode_backend(bridge, options)
-                                       : make_arkode_backend(bridge, options);
+  switch (options.method) {
+    case Method::bdf:
+      return make_cvode_backend(bridge, options);
+    case Method::rosenbrock:
+      return make_rosenbrock_backend(bridge, options);
+    case Method::implicit_rk:
+    case Method::explicit_rk:
+      break;
+  }
+  return make_arkode_backend(bridge, options);
 }
 
 /// Times closer than this are the same to SUNDIALS.

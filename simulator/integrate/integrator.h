@@ -30,12 +30,13 @@ class Ode {
   virtual double project(double t, double* x);
 };
 
-enum class Method { bdf, implicit_rk, explicit_rk };  // CVODE, ARKODE DIRK, ARKODE ERK
+/// CVODE; ARKODE, diagonally implicit; ARKODE, explicit; linearly implicit with an approximate Jacobian.
+enum class Method { bdf, implicit_rk, explicit_rk, rosenbrock };
 std::string to_string(Method method);
 
 struct Options {
   Method method = Method::explicit_rk;
-  int order = 0;  ///< 0: the method's default (bdf 5, implicit 4, explicit 5)
+  int order = 0;  ///< 0: the method's default (bdf 5, implicit 4, explicit 5, rosenbrock 3)
   double relative_tolerance = 1e-6;
   Eigen::VectorXd absolute_tolerance;  ///< one for each state, or one value for all; empty: 1e-9
   double max_step = 0.0;               ///< 0: none

@@ -15,10 +15,10 @@ template <class Value>
   throw std::invalid_argument(text.str());
 }
 
-int lowest_order(Method method) { return method == Method::bdf ? 1 : 2; }
+int lowest_order(Method method) { return method == Method::bdf ? 1 : method == Method::rosenbrock ? 3 : 2; }
 
 void check_order(const Options& options) {
-  constexpr int highest = 5;
+  const int highest = options.method == Method::rosenbrock ? 3 : 5;
   if (options.order == 0) return;
   if (options.order < lowest_order(options.method) || options.order > highest) {
     refuse("order", options.order,
@@ -40,6 +40,8 @@ std::string to_string(Method method) {
       return "implicit_rk";
     case Method::explicit_rk:
       return "explicit_rk";
+    case Method::rosenbrock:
+      return "rosenbrock";
   }
   throw std::logic_error("to_string: no such integration method");
 }

@@ -74,7 +74,6 @@ constexpr double kSpringPulley = 1.8686e-3;  // Table III, J_Bsp
 
 // Table VIII and equation 28; K_vd1 is lost in the table: 1000 is robots/mabel's assumption.
 constexpr double kSpringDamping = 1.5, kStopCubic = 100.0, kStopDamping = 1000.0, kStopRoot = 50.0;
-constexpr double kPreloadLength = 1e-3;  // over which robots/mabel lets the preload build up
 
 struct LegData {
   int leg_angle, leg_shape, motor_angle, motor_shape, spring;
@@ -128,11 +127,11 @@ std::vector<Link> links(const MabelOptions& options, const MabelVector& q) {
 
 double squared(double x) { return x * x; }
 
-/// Equation 28 with Figure 17's preload while the spring is deflected.
+/// Equation 28 with Figure 17's preload.
 double spring_torque(const LegData& leg, double q, double v) {
-  const double elastic = -leg.spring_stiffness * q;
+  const double elastic = -leg.spring_stiffness * q - leg.preload;
   if (q > 0.0) {
-    return elastic - kSpringDamping * v - leg.preload * std::tanh(q / kPreloadLength);
+    return elastic - kSpringDamping * v;
   }
   const double stop = elastic - kStopCubic * q * q * q - kStopDamping * v;
   return v >= 0.0 ? stop : stop + kStopRoot * std::sqrt(-v);

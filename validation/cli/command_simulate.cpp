@@ -147,11 +147,12 @@ void run(Options options) {
 void add_method(CLI::App& command, integrate::Options& options) {
   const std::map<std::string, integrate::Method> methods{{"explicit_rk", integrate::Method::explicit_rk},
                                                          {"implicit_rk", integrate::Method::implicit_rk},
+                                                         {"rosenbrock", integrate::Method::rosenbrock},
                                                          {"bdf", integrate::Method::bdf}};
   command
       .add_option_function<std::string>(
           "--method", [&options, methods](const std::string& name) { options.method = methods.at(name); },
-          "explicit_rk, implicit_rk (stiff models) or bdf")
+          "explicit_rk, or for stiff models rosenbrock, implicit_rk or bdf")
       ->default_str("explicit_rk")
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD");

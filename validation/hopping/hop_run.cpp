@@ -14,7 +14,7 @@ namespace {
 
 using controllers::HoppingPhase;
 
-constexpr double kLowestHip = -0.5;  // m, against a level boom at 1 m
+constexpr double kLowestHip = -0.5;    // m, against a level boom at 1 m
 constexpr double kLargestTorso = 1.0;  // rad
 constexpr double kLongestPhase = 1.5;  // s
 
@@ -35,6 +35,7 @@ class Watch {
   double height(const Eigen::VectorXd& y) const {
     return in_the_plane_ ? y[height_] : config_.boom_length * std::sin(y[height_]);
   }
+
  private:
   controllers::HoppingConfig config_;
   bool in_the_plane_;
@@ -119,7 +120,8 @@ std::string fall(const Watch& watch, const Eigen::VectorXd& y, const controllers
     return "fell: the hip is down";
   }
   if (std::abs(watch.torso(y)) > kLargestTorso) {
-    return std::string("fell ") + (watch.torso(y) > 0.0 ? "backward" : "forward") + ": the torso has turned over";
+    return std::string("fell ") + (watch.torso(y) > 0.0 ? "backward" : "forward") +
+           ": the torso has turned over";
   }
   if (controller.time_in_phase() > kLongestPhase) {
     return std::string("stays in phase ") + to_string(controller.phase());
@@ -130,7 +132,7 @@ std::string fall(const Watch& watch, const Eigen::VectorXd& y, const controllers
 }  // namespace
 
 HopOptions::HopOptions() {
-  integrator.method = integrate::Method::implicit_rk;
+  integrator.method = integrate::Method::rosenbrock;
   integrator.relative_tolerance = 1e-5;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-7);
 }

@@ -73,9 +73,10 @@ void read_gains(const YamlNode& node, controllers::HoppingLegGains& gains) {
 void read_filter(const YamlNode& node, controllers::RateFilterOptions& filter) {
   double samples = 0.0;
   double order = 0.0;
-  read_entries(node,
-               {{"samples", "1", &samples}, {"order", "1", &order}, {"time_constant", "s", &filter.time_constant}},
-               {});
+  read_entries(
+      node,
+      {{"samples", "1", &samples}, {"order", "1", &order}, {"time_constant", "s", &filter.time_constant}},
+      {});
   filter.samples = static_cast<int>(std::lround(samples));
   filter.order = static_cast<int>(std::lround(order));
 }
@@ -111,14 +112,14 @@ HoppingConfig read_hopping(const std::string& path) {
   if (root.at("controller").text() != "hopping") {
     root.at("controller").refuse("hopping");
   }
-  read_entries(root,
-               {{"period", "s", &config.period},
-                {"boom_length", "m", &config.boom_length},
-                {"torque_limit_mLA", "N m", &config.torque_limit_mLA},
-                {"torque_limit_mLS", "N m", &config.torque_limit_mLS}},
-               {"plumbline", "controller", "title", "note", "parameters", "event_update", "left", "right",
-                "leg_angle", "leg_angle_rate", "leg_angle_filter", "leg_shape_filter", "hip_filter",
-                "supplements"});
+  read_entries(
+      root,
+      {{"period", "s", &config.period},
+       {"boom_length", "m", &config.boom_length},
+       {"torque_limit_mLA", "N m", &config.torque_limit_mLA},
+       {"torque_limit_mLS", "N m", &config.torque_limit_mLS}},
+      {"plumbline", "controller", "title", "note", "parameters", "event_update", "left", "right", "leg_angle",
+       "leg_angle_rate", "leg_angle_filter", "leg_shape_filter", "hip_filter", "supplements"});
   read_parameters(root.at("parameters"), config.parameters);
   if (const auto update = root.find("event_update")) {
     read_update(*update, config.parameters);

@@ -64,9 +64,12 @@ HoppingLoop::Encoder HoppingLoop::find_encoder(const model::Model& model, const 
 }
 
 HoppingLoop::Leg HoppingLoop::find_leg(const model::Model& model, const std::string& side) {
-  return {find_encoder(model, "mLA_" + side),   find_encoder(model, "mLS_" + side),
-          find_encoder(model, "thigh_" + side), find_encoder(model, "knee_" + side),
-          motor_index(model, "mLA_" + side),    motor_index(model, "mLS_" + side),
+  return {find_encoder(model, "mLA_" + side),
+          find_encoder(model, "mLS_" + side),
+          find_encoder(model, "thigh_" + side),
+          find_encoder(model, "knee_" + side),
+          motor_index(model, "mLA_" + side),
+          motor_index(model, "mLS_" + side),
           foot_index(model, side)};
 }
 

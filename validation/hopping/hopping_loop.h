@@ -11,8 +11,8 @@
 namespace plumbline::validation {
 
 /// Finds the controller's encoders and motors in a model by name: mLA, mLS, thigh, knee with _left and
-/// _right, torso, and tower and boom_pitch (or, of a robot in the plane, hip_x and hip_z, which stand for them
-/// on a boom of the controller's length); motors mLA and mLS with _left and _right; feet left and right.
+/// _right, torso, and tower and boom_pitch (or, of a robot in the plane, hip_x and hip_z, which stand for
+/// them on a boom of the controller's length); motors mLA and mLS with _left and _right; feet left and right.
 class HoppingLoop {
  public:
   /// `config` without resolutions: those are the model's. Throws InputError when the model lacks a name, a
