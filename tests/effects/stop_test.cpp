@@ -50,6 +50,21 @@ TEST_F(HardStopTest, TakesTheRootRelativeToItsSpeed) {
   EXPECT_NEAR(force(0.1, 1.0, p), -25.0, 1e-12);
 }
 
+// With a rounding the root begins as a straight line of slope K / sqrt(rounding * root_speed), and far above
+// it is the root again; then nothing happens where motion turns.
+TEST_F(HardStopTest, MayRoundTheRoot) {
+  const Values p = values_of(*law, {{"root_damping", 50.0}, {"root_speed", 4.0}, {"rounding", 0.01}});
+  EXPECT_NEAR(force(0.1, 1e-9, p), -50.0 * 1e-9 / 0.2, 1e-14);
+  EXPECT_NEAR(force(0.1, 0.01, p), -50.0 * 0.01 / std::sqrt(0.02 * 4.0), 1e-12);
+  EXPECT_NEAR(force(0.1, 100.0, p), -50.0 * 5.0, 50.0 * 5.0 * 1e-4);
+  EXPECT_EQ(force(0.1, -1.0, p), 0.0);
+  std::vector<double> in;
+  std::vector<double> out;
+  law->switches({0.1, 1.0, 0}, p.data(), in);
+  law->switches({0.1, -1.0, 0}, p.data(), out);
+  EXPECT_EQ(in, out);
+}
+
 TEST_F(HardStopTest, SwitchesAtTheStopAndWhereMotionTurnsInIt) {
   const Values p = stop(0.5, 1.0);
   const auto switches = [&](double x, double v) {

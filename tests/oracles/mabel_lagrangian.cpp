@@ -74,7 +74,9 @@ constexpr double kSpringPulley = 1.8686e-3;  // Table III, J_Bsp
 
 // Table VIII and equation 28; K_vd1 is lost in the table: 1000 is robots/mabel's assumption.
 constexpr double kSpringDamping = 1.5, kStopCubic = 100.0, kStopDamping = 1000.0, kStopRoot = 50.0;
-constexpr double kPreloadLength = 1e-3;  // over which robots/mabel lets the preload build up
+// Two numbers that only robots/mabel has: where the preload builds up and where the stop's root is rounded
+// off.
+constexpr double kPreloadLength = 1e-3, kStopRounding = 1e-3;
 
 struct LegData {
   int leg_angle, leg_shape, motor_angle, motor_shape, spring;
@@ -135,7 +137,7 @@ double spring_torque(const LegData& leg, double q, double v) {
     return elastic - kSpringDamping * v - leg.preload * std::tanh(q / kPreloadLength);
   }
   const double stop = elastic - kStopCubic * q * q * q - kStopDamping * v;
-  return v >= 0.0 ? stop : stop + kStopRoot * std::sqrt(-v);
+  return v >= 0.0 ? stop : stop - kStopRoot * v / std::sqrt(kStopRounding - v);
 }
 
 /// d(all coordinates)/d(those that rigid cables leave).
