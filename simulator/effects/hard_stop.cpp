@@ -15,8 +15,8 @@ double penetration(const Motion& m, const double* p) { return p[kSide] * (m.posi
 
 // Against a penetration that grows at `rate`.
 double damping_force(double rate, const double* p) {
-  if (rate <= 0.0) return p[kDamping] * rate;
-  return p[kDamping] * rate + p[kRootDamping] * rate / std::sqrt((rate + p[kRounding]) * p[kRootSpeed]);
+  const double root = std::sqrt((std::max(rate, 0.0) + p[kRounding]) / p[kRootSpeed]);
+  return p[kDamping] * rate + p[kRootDamping] * (root - std::sqrt(p[kRounding] / p[kRootSpeed]));
 }
 
 }  // namespace
@@ -25,9 +25,10 @@ const Declaration& HardStop::declaration() const {
   static const Declaration kDeclaration{
       "hard_stop",
       "a stiff, damped contact beyond a position",
-      "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*r/sqrt((r + rounding)*root_speed)) if "
-      "d "
-      "> 0 else 0; d = side*(x - position); d_rate = side*v; r = max(d_rate, 0)",
+      "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + "
+      "rounding)/root_speed) - sqrt(rounding/root_speed))) if d > 0 else 0; d = side*(x - position); d_rate "
+      "= "
+      "side*v",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equation 28 (branches of the stop) and Table VIII",
       {Place::coordinate},
@@ -37,8 +38,8 @@ const Declaration& HardStop::declaration() const {
        any("position", "{position}", "position where the stop begins"), fixed_side(),
        fixed("root_speed", "{position}/s", "speed that the root is taken relative to", 1.0, kSmallestPositive,
              kInfinity),
-       fixed("rounding", "{position}/s", "speed below which the root goes over into a straight line", 0.0,
-             0.0, kInfinity)},
+       fixed("rounding", "{position}/s",
+             "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0, kInfinity)},
       {},
       ""};
   return kDeclaration;

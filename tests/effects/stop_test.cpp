@@ -50,13 +50,13 @@ TEST_F(HardStopTest, TakesTheRootRelativeToItsSpeed) {
   EXPECT_NEAR(force(0.1, 1.0, p), -25.0, 1e-12);
 }
 
-// With a rounding the root begins as a straight line of slope K / sqrt(rounding * root_speed), and far above
-// it is the root again; then nothing happens where motion turns.
+// With a rounding the root begins with the slope K / (2 sqrt(rounding * root_speed)), and nothing happens
+// where motion turns; far above it the root is lower by a constant.
 TEST_F(HardStopTest, MayRoundTheRoot) {
   const Values p = values_of(*law, {{"root_damping", 50.0}, {"root_speed", 4.0}, {"rounding", 0.01}});
-  EXPECT_NEAR(force(0.1, 1e-9, p), -50.0 * 1e-9 / 0.2, 1e-14);
-  EXPECT_NEAR(force(0.1, 0.01, p), -50.0 * 0.01 / std::sqrt(0.02 * 4.0), 1e-12);
-  EXPECT_NEAR(force(0.1, 100.0, p), -50.0 * 5.0, 50.0 * 5.0 * 1e-4);
+  EXPECT_NEAR(force(0.1, 1e-7, p), -50.0 * 1e-7 / 0.4, 1e-10);
+  EXPECT_NEAR(force(0.1, 0.08, p), -50.0 * (0.15 - 0.05), 1e-12);
+  EXPECT_NEAR(force(0.1, 99.99, p), -50.0 * (5.0 - 0.05), 1e-12);
   EXPECT_EQ(force(0.1, -1.0, p), 0.0);
   std::vector<double> in;
   std::vector<double> out;

@@ -76,7 +76,7 @@ constexpr double kSpringPulley = 1.8686e-3;  // Table III, J_Bsp
 constexpr double kSpringDamping = 1.5, kStopCubic = 100.0, kStopDamping = 1000.0, kStopRoot = 50.0;
 // Two numbers that only robots/mabel has: where the preload builds up and where the stop's root is rounded
 // off.
-constexpr double kPreloadLength = 1e-3, kStopRounding = 1e-3;
+constexpr double kPreloadLength = 1e-3, kStopRounding = 1e-4;
 
 struct LegData {
   int leg_angle, leg_shape, motor_angle, motor_shape, spring;
@@ -137,7 +137,7 @@ double spring_torque(const LegData& leg, double q, double v) {
     return elastic - kSpringDamping * v - leg.preload * std::tanh(q / kPreloadLength);
   }
   const double stop = elastic - kStopCubic * q * q * q - kStopDamping * v;
-  return v >= 0.0 ? stop : stop - kStopRoot * v / std::sqrt(kStopRounding - v);
+  return v >= 0.0 ? stop : stop + kStopRoot * (std::sqrt(kStopRounding - v) - std::sqrt(kStopRounding));
 }
 
 /// d(all coordinates)/d(those that rigid cables leave).
