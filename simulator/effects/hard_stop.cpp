@@ -9,13 +9,14 @@
 namespace plumbline::effects {
 namespace {
 
-enum Index : std::size_t { kCubicStiffness, kDamping, kRootDamping, kPosition, kSide, kRootSpeed };
+enum Index : std::size_t { kCubicStiffness, kDamping, kRootDamping, kPosition, kSide, kRootSpeed, kRounding };
 
 double penetration(const Motion& m, const double* p) { return p[kSide] * (m.position - p[kPosition]); }
 
 // Against a penetration that grows at `rate`.
 double damping_force(double rate, const double* p) {
-  return p[kDamping] * rate + p[kRootDamping] * std::sqrt(std::max(rate, 0.0) / p[kRootSpeed]);
+  const double root = std::sqrt((std::max(rate, 0.0) + p[kRounding]) / p[kRootSpeed]);
+  return p[kDamping] * rate + p[kRootDamping] * (root - std::sqrt(p[kRounding] / p[kRootSpeed]));
 }
 
 }  // namespace
@@ -24,8 +25,10 @@ const Declaration& HardStop::declaration() const {
   static const Declaration kDeclaration{
       "hard_stop",
       "a stiff, damped contact beyond a position",
-      "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*sqrt(max(d_rate, 0)/root_speed)) if d "
-      "> 0 else 0; d = side*(x - position); d_rate = side*v",
+      "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + "
+      "rounding)/root_speed) - sqrt(rounding/root_speed))) if d > 0 else 0; d = side*(x - position); d_rate "
+      "= "
+      "side*v",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equation 28 (branches of the stop) and Table VIII",
       {Place::coordinate},
@@ -34,7 +37,9 @@ const Declaration& HardStop::declaration() const {
        non_negative("root_damping", "{force}", "damping force while moving in at root_speed, K_vd2"),
        any("position", "{position}", "position where the stop begins"), fixed_side(),
        fixed("root_speed", "{position}/s", "speed that the root is taken relative to", 1.0, kSmallestPositive,
-             kInfinity)},
+             kInfinity),
+       fixed("rounding", "{position}/s",
+             "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0, kInfinity)},
       {},
       ""};
   return kDeclaration;
@@ -47,7 +52,8 @@ Values HardStop::typical(const Scales& scales) const {
           s.force / std::sqrt(s.velocity),
           s.position,
           1.0,
-          1.0};
+          1.0,
+          1e-3 * s.velocity};
 }
 
 std::vector<Values> HardStop::starts(const Scales& scales) const {
@@ -88,9 +94,9 @@ double HardStop::dissipated_power(const Motion& m, const double* /*state*/, cons
 void HardStop::switches(const Motion& m, const double* p, std::vector<double>& g) const {
   const double d = penetration(m, p);
   g.push_back(d);
-  // The root's slope is unbounded where motion turns; outside the stop that is of no interest. (Both change
-  // sign together where motion leaves the stop.)
-  g.push_back(d > 0.0 ? p[kSide] * m.velocity : 1.0);
+  // The root's slope is unbounded where motion turns, unless it is rounded; outside the stop that is of no
+  // interest. (Both change sign together where motion leaves the stop.)
+  g.push_back(d > 0.0 && p[kRounding] <= 0.0 ? p[kSide] * m.velocity : 1.0);
 }
 
 }  // namespace plumbline::effects

@@ -7,12 +7,14 @@
 
 namespace plumbline::effects {
 
-/// f = -side (cubic_stiffness d^3 + damping d' + root_damping sqrt(max(d', 0) / root_speed)) where d > 0,
-/// else 0 d = side (x - position): penetration, rad or m; d': its rate. Result in N m or N. The root term
-/// acts only while moving in; root_speed fixes its unit (1 rad/s: the numbers of Table VIII). Both damping
-/// terms jump at d = 0 (switch d); the root term has an unbounded slope at d' = 0 (switch d'). Null when the
-/// three coefficients are 0, wherever the stop is. Stored energy: cubic_stiffness d^4 / 4. Source: Park et
-/// al. (2011), equation 28, the branches of the stop, and Table VIII.
+/// f = -side (cubic_stiffness d^3 + damping d' + root_damping (sqrt((r + rounding) / root_speed)
+///     - sqrt(rounding / root_speed))) where d > 0, else 0   [N m or N]
+/// d = side (x - position): penetration, rad or m; d': its rate; r = max(d', 0): the root acts only while
+/// moving in. root_speed fixes its unit (1 rad/s: the numbers of Table VIII). Both damping terms jump at d =
+/// 0 (switch d); without rounding the root's slope is unbounded at d' = 0 (switch d'), and implicit
+/// integrators stall where something comes to rest on the stop. Null when the three coefficients are 0,
+/// wherever the stop is. Stored energy: cubic_stiffness d^4 / 4. Source: Park et al. (2011), equation 28, the
+/// branches of the stop, and Table VIII; the rounding is ours.
 class HardStop final : public ForceLaw {
  public:
   const Declaration& declaration() const override;

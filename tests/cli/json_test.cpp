@@ -52,8 +52,8 @@ TEST_F(Json, CheckOfAModel) {
   const json model = from({"check", "robot/model.yaml"});
   EXPECT_THAT(keys(model),
               UnorderedElementsAre("kind", "file", "robot", "lineage", "skeleton", "independent_coordinates",
-                                   "states", "bodies", "coordinates", "motors", "ratios", "inertias",
-                                   "effects", "sensors", "places"));
+                                   "states", "bodies", "coordinates", "motors", "pulleys", "ratios",
+                                   "inertias", "effects", "sensors", "places"));
   EXPECT_EQ(model["kind"], "model");
   EXPECT_EQ(model["independent_coordinates"], 1);
   EXPECT_EQ(model["states"], 2);

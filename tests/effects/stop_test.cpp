@@ -50,6 +50,21 @@ TEST_F(HardStopTest, TakesTheRootRelativeToItsSpeed) {
   EXPECT_NEAR(force(0.1, 1.0, p), -25.0, 1e-12);
 }
 
+// With a rounding the root begins with the slope K / (2 sqrt(rounding * root_speed)), and nothing happens
+// where motion turns; far above it the root is lower by a constant.
+TEST_F(HardStopTest, MayRoundTheRoot) {
+  const Values p = values_of(*law, {{"root_damping", 50.0}, {"root_speed", 4.0}, {"rounding", 0.01}});
+  EXPECT_NEAR(force(0.1, 1e-7, p), -50.0 * 1e-7 / 0.4, 1e-10);
+  EXPECT_NEAR(force(0.1, 0.08, p), -50.0 * (0.15 - 0.05), 1e-12);
+  EXPECT_NEAR(force(0.1, 99.99, p), -50.0 * (5.0 - 0.05), 1e-12);
+  EXPECT_EQ(force(0.1, -1.0, p), 0.0);
+  std::vector<double> in;
+  std::vector<double> out;
+  law->switches({0.1, 1.0, 0}, p.data(), in);
+  law->switches({0.1, -1.0, 0}, p.data(), out);
+  EXPECT_EQ(in, out);
+}
+
 TEST_F(HardStopTest, SwitchesAtTheStopAndWhereMotionTurnsInIt) {
   const Values p = stop(0.5, 1.0);
   const auto switches = [&](double x, double v) {

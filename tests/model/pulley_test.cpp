@@ -19,32 +19,7 @@ using testing::ElementsAre;
 TEST(PulleyTest, PulleysCountAsCoordinates) {
   const test::TemporaryFolder folder;
   folder.write("arm.sdf", test::kSkeleton);
-  const std::string path = folder.write("model.yaml", R"(plumbline: model/1
-robot: r
-skeleton: arm.sdf
-pulleys:
-  drum: {inertia: {value: 20, unit: g cm^2, uncertainty: 5 %, source: s}}
-  idler: {inertia: {value: 1e-4, unit: kg m^2, source: s}}
-coordinates:
-  shoulder: {of: {shoulder: 1}}
-  sum: {of: {elbow: 1, drum: 0.5}}
-motors:
-  mTip:
-    command_unit: N m
-    rotor_inertia: {value: 1e-4, unit: kg m^2, source: s}
-ratios:
-  shoulder:
-    motor: mTip
-    ratio: {value: 10, unit: "1", source: s}
-    also: {drum: {value: -3, unit: "1", source: s}}
-  idler: {pulley: idler, of: {drum: {value: 2, unit: "1", source: s}, sum: {value: 1, unit: "1", source: s}}}
-inertias:
-  rim: {at: drum, value: {value: 1e-5, unit: kg m^2, source: s}}
-effects:
-  - {effect: drag, at: drum, values: {damping: {value: 0.3, unit: N m s/rad, source: s}}}
-sensors:
-  drum: {measures: drum, counts_per_turn: 2048, source: s}
-)");
+  const std::string path = folder.write("model.yaml", test::kPulleyModel);
   const Model model = read_model(path, test::test_catalogue());
   ASSERT_EQ(model.pulleys.size(), 2U);
   EXPECT_NEAR(model.find_pulley("drum")->inertia.value, 20e-7, 1e-18);

@@ -116,7 +116,7 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
   };
   return {
       {"model",
-       {kModel},
+       {kModel, kPulleyModel},
        [=](const std::string& text) { return read_model(put(folder + "/input.yaml", text)); }},
       {"overlay",
        {kOverlay},

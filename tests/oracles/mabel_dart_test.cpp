@@ -57,7 +57,7 @@ dd::BodyNode* add(dd::Skeleton& skeleton, const model::Joint& joint, const std::
 }
 
 dd::SkeletonPtr to_dart(const model::Skeleton& skeleton) {
-  const dd::SkeletonPtr built = dd::Skeleton::create(skeleton.file);
+  dd::SkeletonPtr built = dd::Skeleton::create(skeleton.file);
   std::vector<dd::BodyNode*> bodies(skeleton.bodies.size(), nullptr);
   for (const model::Joint& joint : skeleton.joints) {
     const auto child = static_cast<std::size_t>(joint.child);

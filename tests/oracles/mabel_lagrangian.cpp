@@ -74,6 +74,8 @@ constexpr double kSpringPulley = 1.8686e-3;  // Table III, J_Bsp
 
 // Table VIII and equation 28; K_vd1 is lost in the table: 1000 is robots/mabel's assumption.
 constexpr double kSpringDamping = 1.5, kStopCubic = 100.0, kStopDamping = 1000.0, kStopRoot = 50.0;
+// Only robots/mabel has it: where the root of the stop is rounded off.
+constexpr double kStopRounding = 1e-4;
 
 struct LegData {
   int leg_angle, leg_shape, motor_angle, motor_shape, spring;
@@ -134,7 +136,7 @@ double spring_torque(const LegData& leg, double q, double v) {
     return elastic - kSpringDamping * v;
   }
   const double stop = elastic - kStopCubic * q * q * q - kStopDamping * v;
-  return v >= 0.0 ? stop : stop + kStopRoot * std::sqrt(-v);
+  return v >= 0.0 ? stop : stop + kStopRoot * (std::sqrt(kStopRounding - v) - std::sqrt(kStopRounding));
 }
 
 /// d(all coordinates)/d(those that rigid cables leave).

@@ -269,6 +269,54 @@ TEST(Mabel, APayloadOnALinkWithoutMassIsAPoint) {
       0.5 * 3.0 * speed * speed, 1e-9);
 }
 
+// The planar file is checked number by number through the accelerations; the other must say the same.
+TEST(Mabel, BothFilesSayTheSameOfDrivetrainAndEffects) {
+  const model::Model plane = read("mabel_planar.yaml");
+  const model::Model boom = read("mabel.yaml");
+  ASSERT_EQ(plane.motors.size(), boom.motors.size());
+  for (std::size_t i = 0; i < plane.motors.size(); ++i) {
+    EXPECT_EQ(plane.motors[i].name, boom.motors[i].name);
+    EXPECT_EQ(plane.motors[i].rotor_inertia.value, boom.motors[i].rotor_inertia.value);
+    EXPECT_EQ(plane.motors[i].torque_constant.value, boom.motors[i].torque_constant.value);
+  }
+  ASSERT_EQ(plane.ratios.size(), boom.ratios.size());
+  for (std::size_t i = 0; i < plane.ratios.size(); ++i) {
+    EXPECT_EQ(plane.ratios[i].motor, boom.ratios[i].motor);
+    ASSERT_EQ(plane.ratios[i].to.size(), boom.ratios[i].to.size());
+    for (std::size_t k = 0; k < plane.ratios[i].to.size(); ++k) {
+      EXPECT_EQ(plane.ratios[i].to[k].of, boom.ratios[i].to[k].of);
+      EXPECT_EQ(plane.ratios[i].to[k].factor, boom.ratios[i].to[k].factor);
+    }
+  }
+  ASSERT_EQ(plane.effects.size(), boom.effects.size() + 1);  // the boom's weight at hip_z
+  EXPECT_EQ(plane.effects.front().label(), "preload at hip_z");
+  for (std::size_t i = 0; i < boom.effects.size(); ++i) {
+    EXPECT_EQ(plane.effects[i + 1].label(), boom.effects[i].label());
+    EXPECT_EQ(plane.effects[i + 1].numbers(), boom.effects[i].numbers());
+  }
+}
+
+TEST(Mabel, SensorsHaveThePapersResolutions) {
+  const model::Model boom = read("mabel.yaml");
+  const model::Model plane = read("mabel_planar.yaml");
+  const auto degrees = [](const model::Model& model, const std::string& sensor) {
+    return model.find_sensor(sensor)->resolution * 180.0 / std::acos(-1.0);
+  };
+  for (const char* side : {"_left", "_right"}) {
+    for (const model::Model& model : {boom, plane}) {
+      for (const char* sensor : {"mLA", "mLS", "bsp", "knee"}) {
+        EXPECT_NEAR(degrees(model, std::string(sensor) + side), 0.1758, 5e-5);
+      }
+      EXPECT_NEAR(degrees(model, std::string("thigh") + side), 0.008878, 5e-7);
+      EXPECT_NEAR(degrees(model, "torso"), 0.05859, 5e-6);
+    }
+  }
+  EXPECT_NEAR(degrees(boom, "boom_pitch"), 0.009988, 5e-7);  // printed: 0.09988
+  EXPECT_NEAR(degrees(boom, "tower"), 0.001216, 5e-7);
+  EXPECT_NEAR(degrees(plane, "hip_z") / 2.25, 0.009988, 5e-7);
+  EXPECT_NEAR(degrees(plane, "hip_x") / 2.25, 0.001216, 5e-7);
+}
+
 TEST(Mabel, MassesSumToThePapers65Kg) {
   double mass = 0.0;
   for (const model::Body& body : read("mabel.yaml").skeleton.bodies) {

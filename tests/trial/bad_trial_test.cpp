@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                  false,
                  "  leg: {value",
                  "  lag: {value",
-                 {"trial.yaml:14: locked.lag", "coordinate or motor", "did you mean leg?"}},
+                 {"trial.yaml:14: locked.lag", "coordinate, motor or pulley", "did you mean leg?"}},
         BadInput{"sensor_twice",
                  false,
                  "  place: {column: place}",
