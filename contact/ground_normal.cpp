@@ -9,7 +9,15 @@
 namespace plumbline::contact {
 namespace {
 
-enum Index : std::size_t { kStiffness, kDamping, kRootDamping, kExponent, kReferenceDepth, kRootSpeed };
+enum Index : std::size_t {
+  kStiffness,
+  kDamping,
+  kRootDamping,
+  kExponent,
+  kReferenceDepth,
+  kRootSpeed,
+  kRounding
+};
 
 constexpr double kSphericalFoot = 1.5;
 
@@ -19,8 +27,9 @@ double contact_share(double depth, const double* p) {
 }
 
 double damping_force(double rate, const double* p) {
-  return p[kDamping] * rate +
-         p[kRootDamping] * std::copysign(std::sqrt(std::abs(rate) / p[kRootSpeed]), rate);
+  const double root =
+      std::sqrt((std::abs(rate) + p[kRounding]) / p[kRootSpeed]) - std::sqrt(p[kRounding] / p[kRootSpeed]);
+  return p[kDamping] * rate + p[kRootDamping] * std::copysign(root, rate);
 }
 
 }  // namespace
@@ -30,7 +39,9 @@ const effects::Declaration& GroundNormal::declaration() const {
       "ground_normal",
       "a compliant, damped ground under a point foot",
       "normal = max(0, (depth/reference_depth)^exponent*(stiffness + damping*rate + "
-      "root_damping*sgn(rate)*sqrt(|rate|/root_speed))) if depth > 0 else 0",
+      "root_damping*sgn(rate)*(sqrt((|rate| + rounding)/root_speed) - sqrt(rounding/root_speed)))) if depth "
+      "> "
+      "0 else 0",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equation 29 and Table VIII, with damping that opposes the "
       "motion; Hunt and Crossley, J. Applied Mechanics 42, 1975",
@@ -44,7 +55,10 @@ const effects::Declaration& GroundNormal::declaration() const {
        effects::fixed("reference_depth", "m", "depth that the coefficients are stated at", 1.0,
                       effects::kSmallestPositive, effects::kInfinity),
        effects::fixed("root_speed", "m/s", "speed that the root is taken relative to", 1.0,
-                      effects::kSmallestPositive, effects::kInfinity)},
+                      effects::kSmallestPositive, effects::kInfinity),
+       effects::fixed("rounding", "m/s",
+                      "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0,
+                      effects::kInfinity)},
       {},
       ""};
   return kDeclaration;
@@ -54,7 +68,7 @@ effects::Values GroundNormal::typical(const effects::Scales& scales) const {
   const effects::Scales s = effects::guarded(scales);
   const double at_reference = s.force / std::pow(s.position, kSphericalFoot);
   return {at_reference, at_reference / s.velocity, at_reference / std::sqrt(s.velocity), kSphericalFoot, 1.0,
-          1.0};
+          1.0,          1e-3 * s.velocity};
 }
 
 std::vector<effects::Values> GroundNormal::starts(const effects::Scales& /*scales*/) const {
@@ -80,7 +94,7 @@ double GroundNormal::dissipated_power(double depth, double rate, const double* p
 void GroundNormal::switches(double depth, double rate, const double* p, std::vector<double>& g) const {
   const bool inside = depth > 0.0;
   g.push_back(depth);
-  g.push_back(inside && p[kRootDamping] > 0.0 ? rate : 1.0);
+  g.push_back(inside && p[kRootDamping] > 0.0 && p[kRounding] <= 0.0 ? rate : 1.0);
   g.push_back(inside ? p[kStiffness] + damping_force(rate, p) : 1.0);
 }
 

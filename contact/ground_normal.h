@@ -7,7 +7,8 @@
 
 namespace plumbline::contact {
 
-/// normal = max(0, s^exponent (stiffness + damping r + root_damping sgn(r) sqrt(|r| / root_speed)))   [N]
+/// normal = max(0, s^exponent (stiffness + damping r + root_damping sgn(r) R(r)))   [N],
+///          R(r) = sqrt((|r| + rounding) / root_speed) - sqrt(rounding / root_speed),
 ///          where depth > 0, else 0
 /// s = depth / reference_depth; r: rate of the depth, m/s. Stored energy, J:
 ///          stiffness reference_depth s^(exponent + 1) / (exponent + 1).
@@ -23,7 +24,8 @@ namespace plumbline::contact {
 /// still stored is lost. Without the root term that needs r < -stiffness/damping, which no free rebound
 /// reaches (Marhefka and Orin 1999).
 ///
-/// At r = 0 the root term has an infinite slope in r: no derivative can be taken there (switch r). It ends
+/// Without rounding (the law as printed) the root term has an infinite slope at r = 0: no derivative can be
+/// taken there (switch r), and an implicit integrator makes no headway on a standing foot. It ends
 /// the bouncing of a standing foot in finite time, as the paper says. The depth itself then creeps to rest
 /// as 1/t: near the rest depth spring and root balance, r = -(spring force/root_damping s^exponent)^2, and
 /// only two exceptional motions arrive in finite time (Vazquez, ESAIM: COCV 9, 2003, 231-246). With Table

@@ -112,6 +112,56 @@ double stretch(const model::Plant& plant, const std::string& ratio, const Eigen:
   return most;
 }
 
+/// Every sample of a run, a row each.
+class Recorder {
+ public:
+  explicit Recorder(const model::Model& model) {
+    columns_.push_back({"t", "s", {}});
+    for (const model::Sensor& sensor : model.sensors) {
+      const bool angular = model.place_is_angular(effects::Place::sensor, sensor.name);
+      columns_.push_back({"q_" + sensor.name, angular ? "rad" : "m", {}});
+    }
+    for (const model::Motor& motor : model.motors) {
+      columns_.push_back({"u_" + motor.name, motor.command_unit, {}});
+    }
+    for (const model::Foot& foot : model.feet) {
+      for (const char* axis : {"x", "y", "z"}) {
+        columns_.push_back({"F_" + foot.name + "_" + axis, "N", {}});
+      }
+    }
+    columns_.push_back({"phase", "1", {}});
+    columns_.push_back({"torso_wanted", "rad", {}});
+  }
+
+  void row(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& u,
+           const std::vector<model::Touch>& touches, const controllers::Hopping& controller) {
+    values_.push_back(t);
+    values_.insert(values_.end(), y.data(), y.data() + y.size());
+    values_.insert(values_.end(), u.data(), u.data() + u.size());
+    for (const model::Touch& touch : touches) {
+      values_.insert(values_.end(), touch.force.data(), touch.force.data() + 3);
+    }
+    values_.push_back(static_cast<double>(controller.phase()));
+    values_.push_back(controller.h_T_d());
+  }
+
+  Table table() const {
+    Table table;
+    table.columns = columns_;
+    const auto width = static_cast<Eigen::Index>(columns_.size());
+    const auto rows = static_cast<Eigen::Index>(values_.size()) / width;
+    const Eigen::Map<const Eigen::MatrixXd> all(values_.data(), width, rows);
+    for (Eigen::Index c = 0; c < width; ++c) {
+      table.columns[static_cast<std::size_t>(c)].values = all.row(c).transpose();
+    }
+    return table;
+  }
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<double> values_;
+};
+
 std::string fall(const Watch& watch, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
   if (!y.allFinite()) {
     return "the state is not finite";
@@ -135,6 +185,7 @@ HopOptions::HopOptions() {
   integrator.method = integrate::Method::rosenbrock;
   integrator.relative_tolerance = 1e-5;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-7);
+  integrator.max_steps = 2000;  // in a sample; more is no progress
 }
 
 HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, const HopStart& start,
@@ -144,6 +195,7 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
   const Watch watch(model, config);
   HopRun run;
   Counter counter(watch, run);
+  Recorder recorder(model);
   integrate::PlantOde ode(plant, false, false);
   integrate::Integrator integrator(ode, options.integrator);
   integrator.start(0.0, start_state(plant, config, start));
@@ -152,6 +204,9 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
   const auto begin = std::chrono::steady_clock::now();
   try {
     for (long k = 0;; ++k) {
+      if (options.stop != nullptr && options.stop->raised) {
+        throw Stopped();
+      }
       run.time = static_cast<double>(k) * config.period;
       const Eigen::VectorXd& x = integrator.state();
       plant.outputs(x.data(), y.data());
@@ -160,6 +215,9 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
       counter.feet(run.time, touches);
       counter.load(loop.torques(), stretch(plant, "leg_angle", x), stretch(plant, "leg_shape", x));
       counter.sample(run.time, y, loop.controller());
+      if (options.trace) {
+        recorder.row(run.time, y, command, touches, loop.controller());
+      }
       run.end = fall(watch, y, loop.controller());
       run.fell = !run.end.empty();
       if (run.fell || static_cast<long>(run.hops.size()) >= options.hops || run.time >= options.longest) {
@@ -169,6 +227,8 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
       integrator.input_changed(true);
       integrator.advance(static_cast<double>(k + 1) * config.period);
     }
+  } catch (const Stopped&) {
+    throw;
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -177,6 +237,9 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.summary = integrator.summary();
+  if (options.trace) {
+    run.trace = recorder.table();
+  }
   return run;
 }
 

@@ -9,6 +9,7 @@
 #include "simulator/model/model.h"
 #include "simulator/trace/table.h"
 #include "validation/hopping/hop_start.h"
+#include "validation/predict/problem.h"
 
 namespace plumbline::validation {
 
@@ -16,7 +17,8 @@ struct HopOptions {
   long hops = 100;         ///< enough
   double longest = 120.0;  ///< s, whatever happens
   integrate::Options integrator;
-  bool trace = false;  ///< keep every sample
+  bool trace = false;              ///< keep every sample
+  const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown
   HopOptions();
 };
 

@@ -1,0 +1,255 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
+#include "simulator/trace/table.h"
+#include "validation/cli/commands.h"
+#include "validation/cli/files.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/interrupt.h"
+#include "validation/cli/output.h"
+#include "validation/hopping/hop_search.h"
+#include "validation/hopping/hopping_file.h"
+
+namespace plumbline::cli {
+namespace {
+
+using validation::Hop;
+using validation::HopRun;
+using validation::HopStatistics;
+
+constexpr double kDegrees = 57.295779513082323;
+
+struct Options {
+  std::string model, controller, out, json;
+  validation::HopStart start;
+  validation::HopOptions run;
+  int starts = 1;
+  long enough = 40;
+  std::uint64_t seed = 1;
+  bool no_update = false;
+  int search = 0;
+};
+
+nlohmann::json to_json(const HopRun& run) {
+  nlohmann::json hops = nlohmann::json::array();
+  for (const Hop& hop : run.hops) {
+    hops.push_back({{"landing", hop.landing},
+                    {"period", hop.period},
+                    {"travel", hop.travel},
+                    {"torso", hop.torso},
+                    {"torso_wanted", hop.torso_wanted},
+                    {"touchdown_gap", hop.touchdown_gap},
+                    {"largest_torque_mLA", hop.largest_torque_mLA},
+                    {"largest_torque_mLS", hop.largest_torque_mLS},
+                    {"largest_stretch_LA", hop.largest_stretch_LA},
+                    {"largest_stretch_LS", hop.largest_stretch_LS},
+                    {"lowest_hip", hop.lowest_hip},
+                    {"highest_hip", hop.highest_hip}});
+  }
+  return {{"hops", hops},
+          {"time", run.time},
+          {"fell", run.fell},
+          {"end", run.end},
+          {"steps", run.summary.steps},
+          {"rate_evaluations", run.summary.rate_evaluations},
+          {"wall_time_per_simulated_second", run.time > 0.0 ? run.seconds / run.time : 0.0}};
+}
+
+nlohmann::json to_json(const HopStatistics& s) {
+  return {{"starts", s.starts},
+          {"sustained", s.sustained},
+          {"median_hops", s.median_hops},
+          {"period", s.period},
+          {"travel", s.travel},
+          {"torso", s.torso},
+          {"touchdown_gap", s.touchdown_gap},
+          {"stretch_LA", s.stretch_LA},
+          {"stretch_LS", s.stretch_LS},
+          {"torque_mLA", s.torque_mLA},
+          {"torque_mLS", s.torque_mLS}};
+}
+
+void print(const HopRun& run) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t h = 0; h < run.hops.size(); ++h) {
+    const Hop& hop = run.hops[h];
+    rows.push_back(
+        {fmt::format("{}", h + 1), fmt::format("{:.3f}", hop.landing), fmt::format("{:.3f}", hop.period),
+         fmt::format("{:.3f}", hop.travel), fmt::format("{:.1f}", hop.torso * kDegrees),
+         fmt::format("{:.1f}", 1e3 * hop.touchdown_gap),
+         fmt::format("{:.1f} {:.1f}", hop.largest_torque_mLA, hop.largest_torque_mLS),
+         fmt::format("{:.0f} {:.0f}", hop.largest_stretch_LA * kDegrees, hop.largest_stretch_LS * kDegrees)});
+  }
+  print_table({"hop", "landing s", "period s", "travel m", "torso deg", "gap ms", "torque LA LS N m",
+               "stretch LA LS deg"},
+              rows);
+  fmt::print("\n{} hops in {:.3f} s{}{}. {:.3g} s of computing for each simulated second.\n", run.hops.size(),
+             run.time, run.fell ? "; " : "", run.end, run.time > 0.0 ? run.seconds / run.time : 0.0);
+}
+
+void print(const HopStatistics& s, long enough) {
+  fmt::print("{} of {} starts sustained ({} hops or more); median {:.0f} hops.\n\n", s.sustained, s.starts,
+             enough, s.median_hops);
+  print_table({"over the second half of each run", "mean"},
+              {{"period", fmt::format("{:.3f} s", s.period)},
+               {"travel of a hop", fmt::format("{:.3f} m", s.travel)},
+               {"torso at landing", fmt::format("{:.1f} deg", s.torso * kDegrees)},
+               {"between the two touchdowns", fmt::format("{:.1f} ms", 1e3 * s.touchdown_gap)},
+               {"largest stretch, leg angle", fmt::format("{:.0f} deg of motor", s.stretch_LA * kDegrees)},
+               {"largest stretch, leg shape", fmt::format("{:.0f} deg of motor", s.stretch_LS * kDegrees)},
+               {"largest torque, leg angle", fmt::format("{:.1f} N m", s.torque_mLA)},
+               {"largest torque, leg shape", fmt::format("{:.1f} N m", s.torque_mLS)}});
+}
+
+void run_once(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
+  validation::HopOptions run_options = options.run;
+  run_options.trace = !options.out.empty();
+  const HopRun run = validation::hop(model, config, options.start, run_options);
+  if (run_options.trace) {
+    std::filesystem::path(options.out).extension() == ".mat" ? write_mat(run.trace, options.out)
+                                                             : write_csv(run.trace, options.out);
+  }
+  write_json(to_json(run), options.json);
+  print(run);
+}
+
+void run_many(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
+  ProgressLine line;
+  const validation::Progress show = line.callback();
+  const std::vector<validation::HopStart> starts = validation::draw_starts(options.starts, options.seed);
+  const std::vector<HopRun> runs = validation::hop_from(model, config, starts, options.run, [&](int done) {
+    show("hopping", static_cast<double>(done) / options.starts);
+  });
+  const HopStatistics statistics = validation::statistics_of(runs, options.enough);
+  nlohmann::json json = to_json(statistics);
+  json["runs"] = nlohmann::json::array();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    json["runs"].push_back({{"drop", starts[r].drop},
+                            {"speed", starts[r].speed},
+                            {"torso", starts[r].torso},
+                            {"hops", runs[r].hops.size()},
+                            {"end", runs[r].end}});
+  }
+  write_json(json, options.json);
+  print(statistics, options.enough);
+}
+
+void run_search(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
+  validation::HopSearchOptions search;
+  search.trials = options.search;
+  search.starts = std::max(options.starts, 4);
+  search.hops = options.run.hops;
+  search.seed = options.seed;
+  search.run = options.run;
+  const auto describe = [](const validation::HopSearchResult& r) {
+    const controllers::HoppingLegGains& g = r.config.left;
+    return std::vector<std::string>{
+        fmt::format("{:.3f}", r.score),
+        fmt::format("{}/{}", r.statistics.sustained, r.statistics.starts),
+        fmt::format("{:.4g}", g.kp_LA),
+        fmt::format("{:.4g}", g.kd_LA),
+        fmt::format("{:.4g}", g.kp_mLS),
+        fmt::format("{:.4g}", g.kd_mLS),
+        fmt::format("{:.4g}", r.config.parameters.K_T),
+        fmt::format("{} {}", r.config.leg_angle_filter.samples, r.config.leg_shape_filter.samples),
+        fmt::format("{:.3f}", r.statistics.travel),
+        fmt::format("{:.1f}", r.statistics.torso * kDegrees)};
+  };
+  ProgressLine line;
+  const validation::Progress show = line.callback();
+  std::vector<std::vector<std::string>> rows;
+  const validation::HopSearchResult best = validation::search_gains(
+      model, config, search, [&](int trial, const validation::HopSearchResult& result) {
+        rows.push_back(describe(result));
+        show("gain sets", static_cast<double>(trial + 1) / search.trials);
+      });
+  rows.push_back(describe(best));
+  print_table(
+      {"score", "sustained", "kp_LA", "kd_LA", "kp_mLS", "kd_mLS", "K_T", "samples", "travel m", "torso deg"},
+      rows);
+  fmt::print("\nThe last line repeats the best.\n");
+  write_json({{"score", best.score},
+              {"kp_LA", best.config.left.kp_LA},
+              {"kd_LA", best.config.left.kd_LA},
+              {"kp_mLS", best.config.left.kp_mLS},
+              {"kd_mLS", best.config.left.kd_mLS},
+              {"K_T", best.config.parameters.K_T},
+              {"leg_angle_samples", best.config.leg_angle_filter.samples},
+              {"leg_shape_samples", best.config.leg_shape_filter.samples},
+              {"statistics", to_json(best.statistics)}},
+             options.json);
+}
+
+void run(Options options) {
+  check_writable(options.out);
+  check_writable(options.json);
+  check_not_an_input(options.out, {options.model, options.controller});
+  if (!options.out.empty() && (options.starts > 1 || options.search > 0)) {
+    throw InputError({"", 0, "--out"}, "more than one run", "a single run for a trace");
+  }
+  const model::Model model = model::read_model(options.model, model::known_effects());
+  controllers::HoppingConfig config = validation::read_hopping(options.controller);
+  config.parameters.event_update = config.parameters.event_update && !options.no_update;
+  integrate::Options& integrator = options.run.integrator;
+  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
+  options.run.stop = &stop_flag();
+  if (options.search > 0) {
+    run_search(options, model, config);
+  } else if (options.starts > 1) {
+    run_many(options, model, config);
+  } else {
+    run_once(options, model, config);
+  }
+}
+
+}  // namespace
+
+void add_hop(CLI::App& app, Outcome& /*outcome*/) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("hop", "Hop on two legs under the hopping controller, from one start or many");
+  command->add_option("model", options->model, "model file with two feet on the ground")
+      ->required()
+      ->type_name("MODEL");
+  command->add_option("controller", options->controller, "the controller's constants")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--drop", options->start.drop, "height of the lower foot at the start, m")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--speed", options->start.speed, "forward speed at the start, m/s")
+      ->capture_default_str();
+  command->add_option("--torso", options->start.torso, "torso beyond its nominal angle at the start, rad")
+      ->capture_default_str();
+  command->add_option("--hops", options->run.hops, "end a run after so many hops")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-update", options->no_update, "without the event-based update of the torso angle");
+  command
+      ->add_option("--starts", options->starts,
+                   "random starts: drop 3 to 7 cm, speed -0.6 to -0.1 m/s, torso +-0.02 rad")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--enough", options->enough, "hops that count as sustained")->capture_default_str();
+  command->add_option("--search", options->search, "look for gains, trying so many sets")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed of starts and search")->capture_default_str();
+  command
+      ->add_option("--tolerance", options->run.integrator.relative_tolerance,
+                   "relative tolerance of the integrator")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-13, 1e-1));
+  command->add_option("-o,--out", options->out, "write the trace of a single run to FILE (.csv or .mat)")
+      ->type_name("FILE");
+  add_json_option(*command, options->json);
+  command->footer(
+      "Examples:\n  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml -o hops.csv\n"
+      "  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml --starts 48 --hops 40");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace plumbline::cli
