@@ -76,7 +76,8 @@ TEST_P(Input, RunsRepeatBitByBit) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Input,
                          testing::Values(Held{Method::bdf, true}, Held{Method::bdf, false},
-                                         Held{Method::implicit_rk, true}, Held{Method::explicit_rk, true}),
+                                         Held{Method::implicit_rk, true}, Held{Method::explicit_rk, true},
+                                         Held{Method::rosenbrock, true}),
                          [](const auto& tested) {
                            return to_string(tested.param.method) +
                                   (tested.param.keep_history ? "" : "_restarted");

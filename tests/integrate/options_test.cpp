@@ -152,7 +152,8 @@ TEST_P(Failure, RatesThatAreNotFiniteShortenTheStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Failure,
-                         testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk),
+                         testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk,
+                                         Method::rosenbrock),
                          [](const auto& tested) { return to_string(tested.param); });
 
 }  // namespace

@@ -46,10 +46,56 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Attained{Method::explicit_rk, 2, 3000}, Attained{Method::explicit_rk, 3, 1000},
                     Attained{Method::explicit_rk, 4, 300}, Attained{Method::explicit_rk, 5, 150},
                     Attained{Method::implicit_rk, 2, 3000}, Attained{Method::implicit_rk, 3, 600},
-                    Attained{Method::implicit_rk, 4, 200}, Attained{Method::implicit_rk, 5, 100}),
+                    Attained{Method::implicit_rk, 4, 200}, Attained{Method::implicit_rk, 5, 100},
+                    Attained{Method::rosenbrock, 3, 600}),
     [](const testing::TestParamInfo<Attained>& tested) {
       return to_string(tested.param.method) + std::to_string(tested.param.order);
     });
+
+/// Kepler's problem with a Jacobian that is none: a W-method keeps its order.
+class WrongJacobian : public Kepler {
+ public:
+  bool has_jacobian() const override { return true; }
+  void jacobian(double /*t*/, const double* x, Eigen::Ref<Eigen::MatrixXd> J) override {
+    J.setConstant(0.3);
+    J(0, 2) = 1.0 + 0.2 * x[0];
+    J(3, 1) = -0.7;
+  }
+};
+
+TEST(Order, OfALinearlyImplicitMethodNeedsNoExactJacobian) {
+  WrongJacobian kepler;
+  const auto error = [&](int steps) {
+    Options options = with(Method::rosenbrock, 1e-3);
+    options.fixed_step = 3.0 / steps;
+    Integrator integrator(kepler, options);
+    integrator.start(0.0, Kepler::perihelion(0.3));
+    integrator.advance(3.0);
+    return (integrator.state().head(2) - Kepler::position(0.3, 3.0)).norm();
+  };
+  const double coarse = error(600);
+  EXPECT_NEAR(std::log2(coarse / error(1200)), 3.0, 0.25) << coarse;
+}
+
+/// x' = -k (x - cos t) - sin t: the solution is cos t, however stiff.
+class StiffFollower : public Ode {
+ public:
+  int size() const override { return 1; }
+  void rate(double t, const double* x, double* xdot) override {
+    xdot[0] = -1e6 * (x[0] - std::cos(t)) - std::sin(t);
+  }
+  bool has_jacobian() const override { return true; }
+  void jacobian(double /*t*/, const double* /*x*/, Eigen::Ref<Eigen::MatrixXd> J) override { J(0, 0) = -1e6; }
+};
+
+TEST(Order, AStiffProblemNeedsNoSmallSteps) {
+  StiffFollower follower;
+  Integrator integrator(follower, with(Method::rosenbrock, 1e-6));
+  integrator.start(0.0, Eigen::VectorXd::Constant(1, 1.0));
+  integrator.advance(3.0);
+  EXPECT_NEAR(integrator.state()[0], std::cos(3.0), 1e-6);
+  EXPECT_LT(integrator.summary().steps, 2000);  // an explicit method needs a million
+}
 
 TEST(Order, DefaultsAreAsDocumented) {
   Options options = with(Method::explicit_rk, 1e-13);
@@ -77,7 +123,8 @@ TEST_P(Tolerance, ErrorFollowsIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Tolerance,
-                         testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk),
+                         testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk,
+                                         Method::rosenbrock),
                          [](const auto& tested) { return to_string(tested.param); });
 
 }  // namespace

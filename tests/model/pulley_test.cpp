@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
 #include "tests/model/robot_texts.h"
@@ -57,7 +58,7 @@ TEST(PulleyTest, PulleysCountAsCoordinates) {
 }
 
 TEST(PulleyTest, ALockedPulleyStandsStill) {
-  const Model model = read_model(PLUMBLINE_ROOT "/robots/mabel/mabel_planar.yaml", effects::Catalogue::all());
+  const Model model = read_model(PLUMBLINE_ROOT "/robots/mabel/mabel_planar.yaml", known_effects());
   const Plant free(model, {});
   const Plant locked(model, {{"bsp_left", 0.1}, {"bsp_right", 0.0}});
   EXPECT_EQ(free.positions(), 13);

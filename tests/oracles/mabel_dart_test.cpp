@@ -78,7 +78,6 @@ TEST(MabelByDart, MassMatrixAndBias) {
     const dd::SkeletonPtr peer = to_dart(skeleton);
     const int n = mechanism.size();
     ASSERT_EQ(static_cast<int>(peer->getNumDofs()), n);
-    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n, n);
     Eigen::MatrixXd M;
     Eigen::VectorXd h;
     std::mt19937 generator(6);
@@ -88,7 +87,7 @@ TEST(MabelByDart, MassMatrixAndBias) {
     for (int i = 0; i < 100; ++i) {
       const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(n, [&] { return 1.5 * unit(generator); });
       const Eigen::VectorXd v = Eigen::VectorXd::NullaryExpr(n, [&] { return 3.0 * unit(generator); });
-      mechanism.evaluate(q, v, all, M, h);
+      mechanism.evaluate(q, v, M, h);
       peer->setPositions(q);
       peer->setVelocities(v);
       const Eigen::MatrixXd& expected = peer->getMassMatrix();

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "simulator/integrate/run.h"
-#include "simulator/model/robot_file.h"
+#include "tests/oracles/mabel_in_the_air.h"
 
 namespace plumbline::oracles {
 namespace {
@@ -17,8 +17,7 @@ constexpr double kPeriod = 1e-3;
 constexpr Eigen::Index kSamples = 300;
 
 integrate::RunResult swing(const std::string& file) {
-  const model::Model model =
-      model::read_model(PLUMBLINE_ROOT "/robots/mabel/" + file, effects::Catalogue::all());
+  const model::Model model = mabel_in_the_air(file);
   model::Plant plant(model, {});
   Eigen::MatrixXd commands(4, kSamples);
   for (Eigen::Index k = 0; k < kSamples; ++k) {

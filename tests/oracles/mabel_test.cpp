@@ -12,14 +12,13 @@
 #include "simulator/model/mechanism.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
+#include "tests/oracles/mabel_in_the_air.h"
 #include "tests/oracles/mabel_lagrangian.h"
 
 namespace plumbline::oracles {
 namespace {
 
-model::Model read(const std::string& name) {
-  return model::read_model(PLUMBLINE_ROOT "/robots/mabel/" + name, effects::Catalogue::all());
-}
+model::Model read(const std::string& name) { return mabel_in_the_air(name); }
 
 model::Model with_rigid_cables(model::Model model) {
   const auto stretches = [](const model::EffectUse& use) {
@@ -215,7 +214,7 @@ TEST(Mabel, TowerAndBoomFeelEachPartAtItsOwnDistance) {
   Eigen::MatrixXd M;
   Eigen::VectorXd h;
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  mechanism.evaluate(zero, zero, Eigen::MatrixXd::Identity(n, n), M, h);
+  mechanism.evaluate(zero, zero, M, h);
 
   const double inner = 2.15;
   const double outer = 2.35;

@@ -19,7 +19,7 @@ void multiply(HoppingConfig& config, const Eigen::VectorXd& factors) {
   }
   config.parameters.K_T *= factors[4];
   const auto length = [](int samples, double factor) {
-    const double most = controllers::RateFilterOptions::max_samples;
+    const double most = 12.0;  // longer ones are late by more than the legs' own motion allows
     return static_cast<int>(std::lround(std::clamp(samples * factor, 2.0, most)));
   };
   config.leg_angle_filter.samples = length(config.leg_angle_filter.samples, factors[5]);
@@ -27,7 +27,8 @@ void multiply(HoppingConfig& config, const Eigen::VectorXd& factors) {
 }
 constexpr int kSearched = 7;
 
-constexpr double kOff = 0.5;  // relative: a gait as far off as this is hardly the paper's
+constexpr double kAnyGait = 0.1;  // what it is worth to hop on in another way, in place say
+constexpr double kOff = 0.5;      // relative: a gait as far off as this is hardly the paper's
 
 double score_of(const HoppingConfig& config, const std::vector<HopRun>& runs, const HopStatistics& statistics,
                 long enough) {
@@ -40,7 +41,7 @@ double score_of(const HoppingConfig& config, const std::vector<HopRun>& runs, co
   const double wanted = config.boom_length * p.delta_phi_d;
   const double travel = (statistics.travel - wanted) / wanted;
   const double lean = (statistics.torso - p.h_T0) / p.h_T0;
-  return score * (1.0 + std::exp(-0.5 * (travel * travel + lean * lean) / (kOff * kOff)));
+  return score * (kAnyGait + std::exp(-0.5 * (travel * travel + lean * lean) / (kOff * kOff)));
 }
 
 }  // namespace

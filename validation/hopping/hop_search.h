@@ -22,12 +22,12 @@ struct HopSearchResult {
   HopStatistics statistics;
 };
 
-/// Looks for kp and kd of leg angle and leg shape (the same on both sides), K_T, and the filters' lengths
-/// that keep the robot hopping: the first third of the trials is drawn evenly in the logarithm over a factor
-/// of four to either side of `around`, the rest normally about the best so far with a width that shrinks.
-/// Score: mean over the starts of min(hops, enough)/enough, plus up to one more for a travel and a lean like
-/// the paper's (-0.27 m, 8 deg) once every start is sustained. Deterministic for a seed. `progress` is told
-/// of each trial and its score.
+/// Looks for kp and kd of leg angle and leg shape (the same on both sides), K_T, and the lengths of their
+/// rate filters that keep the robot hopping: the first third of the trials is drawn evenly in the logarithm
+/// over a factor of four to either side of `around`, the rest normally about the best so far with a width
+/// that shrinks. Score: mean over the starts of min(hops, enough)/enough, times 0.1 and up to one more for a
+/// travel and a lean near those that the controller is asked for: a robot that bounces in place is not the
+/// gait that is looked for. Deterministic for a seed. `progress` is told of each trial and its result.
 HopSearchResult search_gains(const model::Model& model, const controllers::HoppingConfig& around,
                              const HopSearchOptions& options,
                              const std::function<void(int, const HopSearchResult&)>& progress);

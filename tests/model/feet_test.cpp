@@ -1,0 +1,155 @@
+// Feet: read, standing on the ground, thrown back by it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "simulator/integrate/run.h"
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
+#include "tests/trace/temporary_folder.h"
+
+namespace plumbline::model {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A block of 2 kg that moves along x and z without turning; its foot is 0.3 m below.
+const char* const kSkeleton = R"(<?xml version="1.0"?>
+<sdf version="1.9">
+  <model name="block">
+    <link name="slider">
+      <inertial><mass>0.5</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
+    </link>
+    <link name="block">
+      <inertial><mass>1.5</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
+    </link>
+    <link name="post">
+      <inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
+    </link>
+    <joint name="x" type="prismatic">
+      <parent>world</parent><child>slider</child><axis><xyz>1 0 0</xyz></axis>
+    </joint>
+    <joint name="z" type="prismatic">
+      <parent>slider</parent><child>block</child><axis><xyz>0 0 1</xyz></axis>
+    </joint>
+    <joint name="bolt" type="fixed"><parent>world</parent><child>post</child></joint>
+  </model>
+</sdf>
+)";
+
+std::string model_text(double gravity, const std::string& foot, const std::string& ground) {
+  return "plumbline: model/1\nrobot: block\nskeleton: block.sdf\ngravity: {value: " +
+         std::to_string(gravity) +
+         ", unit: m/s^2, assumed: test}\ncoordinates:\n  x: {of: {x: 1}}\n  z: {of: {z: 1}}\nfeet:\n  "
+         "foot: " +
+         foot + "\neffects:\n" + ground;
+}
+
+const char* const kFoot = "{link: block, value: [0, 0, -0.3], unit: m, assumed: test}";
+
+std::string ground(double root, bool friction) {
+  std::string text =
+      "  - effect: ground_normal\n    at: foot\n    values:\n"
+      "      stiffness: {value: 2e6, unit: N, assumed: test}\n"
+      "      damping: {value: 4e5, unit: N s/m, assumed: test}\n"
+      "      root_damping: {value: " +
+      std::to_string(root) +
+      ", unit: N, assumed: test}\n"
+      "      rounding: {value: 1e-4, unit: m/s, assumed: test}\n";
+  if (friction) {
+    text +=
+        "  - effect: ground_friction\n    at: foot\n    values:\n"
+        "      bristle_stiffness: {value: 260, unit: 1/m, assumed: test}\n"
+        "      bristle_damping: {value: 2.25, unit: s/m, assumed: test}\n"
+        "      friction: {value: 0.5, unit: '1', assumed: test}\n"
+        "      viscous: {value: 0.1, unit: s/m, assumed: test}\n";
+  }
+  return text;
+}
+
+class FeetTest : public testing::Test {
+ protected:
+  Model model(double gravity, const std::string& foot, const std::string& effects) const {
+    folder_.write("block.sdf", kSkeleton);
+    return read_model(folder_.write("model.yaml", model_text(gravity, foot, effects)), known_effects());
+  }
+
+  static integrate::RunResult run(Plant& plant, const Eigen::VectorXd& x0, Eigen::Index samples) {
+    integrate::RunOptions options;
+    options.integrator.method = integrate::Method::rosenbrock;
+    options.integrator.relative_tolerance = 1e-9;
+    options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-12);
+    return integrate::run(plant, x0, {Eigen::MatrixXd::Zero(0, samples), 1e-3, {}}, 0.0, {}, {}, options);
+  }
+
+  std::string refusal(const std::string& foot) const {
+    try {
+      Plant plant(model(0.0, foot, ground(0.0, false)), {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+// Without gravity and root term: a (v_in + v_out) = ln((1 + a v_in)/(1 - a v_out)), a = damping/stiffness
+// (Hunt and Crossley 1975, integrated).
+TEST_F(FeetTest, AnImpactReboundsAsTheClosedForm) {
+  Plant plant(model(0.0, kFoot, ground(0.0, false)), {});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  x[1] = 0.3005;
+  x[3] = -1.2;
+  const integrate::RunResult result = run(plant, x, 60);
+  const double v_out = result.states(3, 59);
+  const double a = 0.2;
+  EXPECT_GT(v_out, 0.5);
+  EXPECT_NEAR(a * (1.2 + v_out), std::log((1.0 + a * 1.2) / (1.0 - a * v_out)), 1e-8);
+  EXPECT_EQ(result.summary.switches_found, 2);  // touchdown and lift-off are located
+}
+
+TEST_F(FeetTest, EnergyIsAccountedForWhileTheFootSlidesAndComesToRest) {
+  Plant plant(model(9.81, kFoot, ground(3e5, true)), {});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  x[1] = 0.31;
+  x[2] = 0.8;
+  const integrate::RunResult result = run(plant, x, 1500);
+  EXPECT_LT(std::abs(result.energy_error), 1e-6 * result.energy_exchanged);
+  Eigen::VectorXd end = result.states.col(1499);
+  const Touch touch = plant.touches(end.data())[0];
+  EXPECT_NEAR(touch.force.z(), 2.0 * 9.81, 1e-3);  // it stands: the ground carries its weight
+  EXPECT_LT(touch.velocity.norm(), 1e-5);
+}
+
+// At constant load LuGre slides with force friction + viscous * v.
+TEST_F(FeetTest, FrictionOpposesTheSlip) {
+  Plant plant(model(9.81, kFoot, ground(3e5, true)), {});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  x[1] = 0.29979;
+  x[2] = 2.0;
+  const integrate::RunResult result = run(plant, x, 200);
+  Eigen::VectorXd late = result.states.col(199);
+  const Touch touch = plant.touches(late.data())[0];
+  const double v = touch.velocity.x();
+  ASSERT_GT(v, 0.3);
+  EXPECT_NEAR(touch.force.x() / touch.force.z(), -(0.5 + 0.1 * v), 0.01);
+}
+
+TEST_F(FeetTest, BadFeetAreRefused) {
+  EXPECT_THAT(refusal("{link: blok, value: [0, 0, 0], unit: m, assumed: test}"),
+              AllOf(HasSubstr("model.yaml"), HasSubstr("blok"), HasSubstr("block")));
+  EXPECT_THAT(refusal("{link: block, value: [0, 0], unit: m, assumed: test}"), HasSubstr("2 numbers"));
+  EXPECT_THAT(refusal("{link: block, value: [0, 0, 0], unit: s, assumed: test}"),
+              HasSubstr("a unit like \"m\""));
+  EXPECT_THAT(refusal("{link: block, value: [0, 0, 0], unit: m}"), HasSubstr("source"));
+  EXPECT_THAT(refusal("{link: post, value: [0, 0, 0], unit: m, assumed: test}"),
+              HasSubstr("fixed to the world"));
+}
+
+}  // namespace
+}  // namespace plumbline::model
