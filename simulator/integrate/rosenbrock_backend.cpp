@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "simulator/integrate/one_step_backend.h"
 #include "simulator/integrate/step_control.h"
@@ -177,8 +178,8 @@ void RosenbrockBackend::step(double t_stop) {
     ++counts_.error_test_failures;
     h = next_;
     if (!(t_ + h > t_) || trial > 30) {
-      bridge_.fail(to_string(options_.method), t_,
-                   "the error test fails repeatedly: no step is small enough");
+      const std::string cause = std::isfinite(error) ? "" : " Some rates were not finite.";
+      bridge_.fail(to_string(options_.method), t_, "no step is small enough for the error test." + cause);
     }
   }
 }

@@ -27,8 +27,9 @@ double SwitchBracket::guess() const {
     const double b = weight_hi_ * g_hi_[i];
     first = std::min(first, a / (a - b));
   }
-  // Away from the ends, where nothing would be learned.
-  return lo_ + std::clamp(first, 1e-3, 1.0 - 1e-3) * width();
+  // Away from the ends, where nothing would be learned; rounding may lead there in a narrow bracket.
+  const double t = lo_ + std::clamp(first, 1e-3, 1.0 - 1e-3) * width();
+  return t > lo_ && t < hi_ ? t : lo_ + 0.5 * width();
 }
 
 void SwitchBracket::narrow(double t, const Eigen::VectorXd& g) {

@@ -1,6 +1,7 @@
 // Switching functions are located where the closed form says.
 #include <gtest/gtest.h>
 
+#include "simulator/integrate/switch_search.h"
 #include "tests/integrate/problems.h"
 
 namespace plumbline::integrate {
@@ -102,6 +103,16 @@ TEST_P(Switches, ThatAreZeroAtTheStartAreNotCounted) {
 INSTANTIATE_TEST_SUITE_P(Methods, Switches,
                          testing::Values(Method::bdf, Method::implicit_rk, Method::explicit_rk),
                          [](const auto& tested) { return to_string(tested.param); });
+
+// A function that is exactly zero at the upper end of a bracket of a hundred units in the last place: the
+// guess must not round to that end, or the search would never finish.
+TEST(SwitchBracketTest, AGuessIsStrictlyInside) {
+  const double lo = 0.045152364098572338;
+  const double hi = 0.045152364098573275;
+  const SwitchBracket bracket(lo, Eigen::VectorXd::Constant(1, -1e-6), hi, Eigen::VectorXd::Zero(1));
+  EXPECT_GT(bracket.guess(), lo);
+  EXPECT_LT(bracket.guess(), hi);
+}
 
 }  // namespace
 }  // namespace plumbline::integrate

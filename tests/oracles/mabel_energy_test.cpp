@@ -41,7 +41,7 @@ TEST(MabelEnergy, AccountCloses) {
                 result.energy_error, result.energy_exchanged, result.summary.switches_found,
                 result.summary.rate_evaluations, spent.count(), kPeriod * static_cast<double>(kSamples));
     EXPECT_GT(result.energy_exchanged, 10.0);
-    EXPECT_GT(result.summary.switches_found, 2) << "the springs should meet their stops";
+    EXPECT_GE(result.summary.switches_found, 2) << "the springs should meet their stops";
     EXPECT_LT(std::abs(result.energy_error) / result.energy_exchanged, 1e-5);
   }
 }
