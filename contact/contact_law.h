@@ -25,8 +25,9 @@ class NormalLaw : public effects::Law {
 };
 
 /// Force of the ground on a point foot along the ground's plane.
-/// slip: velocity of the foot along the plane, m/s; normal: the normal law's force, N, not negative.
-/// Power balance at constant normal force, which the tests check:
+/// slip: velocity of the foot along the plane, its own direction of travel first, then to its left, m/s;
+/// normal: the normal law's force, N, not negative. Power balance at constant normal force, which the tests
+/// check:
 ///   force . slip = - d(stored_energy)/dt - dissipated_power.
 class TangentialLaw : public effects::Law {
  public:

@@ -10,12 +10,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-enum Index : std::size_t { kBristleStiffness, kBristleDamping, kFriction, kViscous, kRelaxation };
+enum Index : std::size_t { kBristleStiffness, kBristleDamping, kFriction, kViscous, kRelaxation, kLateral };
 
 // A hundredth of a second: flights of legged robots last ten times as long, contacts respond faster.
 constexpr double kStandardRelaxation = 0.01;
 
 bool has_bristles(const double* p) { return p[kFriction] > 0.0; }
+
+// What the bristles see of a slip, and what of their force comes through: the same share sideways.
+Vector2d with_lateral(const Vector2d& v, const double* p) { return {v.x(), p[kLateral] * v.y()}; }
 
 Vector2d bristles(const double* state) { return {state[0], state[1]}; }
 
@@ -31,10 +34,11 @@ const effects::Declaration& GroundFriction::declaration() const {
       "ground_friction",
       "friction of a foot on bristles that deflect before it slides",
       "f_x = -normal*(bristle_stiffness*bristle_x + bristle_damping*bristle_x_rate + viscous*v_x); "
-      "f_y = -normal*(bristle_stiffness*bristle_y + bristle_damping*bristle_y_rate + viscous*v_y); "
+      "f_y = -lateral*normal*(bristle_stiffness*bristle_y + bristle_damping*bristle_y_rate + "
+      "viscous*lateral*v_y); "
       "bristle_x_rate = v_x - decay*bristle_x if normal > 0 else -bristle_x/relaxation; "
-      "bristle_y_rate = v_y - decay*bristle_y if normal > 0 else -bristle_y/relaxation; "
-      "decay = bristle_stiffness*sqrt(v_x^2 + v_y^2)/friction",
+      "bristle_y_rate = lateral*v_y - decay*bristle_y if normal > 0 else -bristle_y/relaxation; "
+      "decay = bristle_stiffness*sqrt(v_x^2 + (lateral*v_y)^2)/friction",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equations 30 to 32; Canudas de Wit, Olsson, Astrom and "
       "Lischinsky, IEEE Trans. Automatic Control 40(3), 1995; in the plane: Velenis, Tsiotras, Canudas de "
@@ -46,7 +50,9 @@ const effects::Declaration& GroundFriction::declaration() const {
        effects::non_negative("friction", "1", "coefficient of friction of steady sliding, alpha_0"),
        effects::non_negative("viscous", "s/m", "rise of the coefficient with speed, alpha_2"),
        effects::fixed("relaxation", "s", "time constant with which unloaded bristles straighten",
-                      kStandardRelaxation, 1e-6, 1.0)},
+                      kStandardRelaxation, 1e-6, 1.0),
+       effects::fixed("lateral", "1", "share of the slip across the foot that is felt; 0: it rolls sideways",
+                      1.0, 0.0, 1.0)},
       {"bristle_x", "bristle_y"},
       "Not negative at constant normal force and |bristle| <= friction/bristle_stiffness, which the state "
       "never "
@@ -57,7 +63,7 @@ const effects::Declaration& GroundFriction::declaration() const {
 
 effects::Values GroundFriction::typical(const effects::Scales& scales) const {
   const effects::Scales s = effects::guarded(scales);
-  return {1.0 / (0.1 * s.position), 1.0 / s.velocity, 1.0, 1.0 / s.velocity, kStandardRelaxation};
+  return {1.0 / (0.1 * s.position), 1.0 / s.velocity, 1.0, 1.0 / s.velocity, kStandardRelaxation, 1.0};
 }
 
 std::vector<effects::Values> GroundFriction::starts(const effects::Scales& scales) const {
@@ -79,19 +85,20 @@ bool GroundFriction::is_null(const double* p) const { return !has_bristles(p) &&
 Vector2d GroundFriction::force(const Vector2d& slip, double normal, const double* state,
                                const double* p) const {
   if (!(normal > 0.0)) return Vector2d::Zero();
-  Vector2d mu = p[kViscous] * slip;
+  const Vector2d v = with_lateral(slip, p);
+  Vector2d mu = p[kViscous] * v;
   if (has_bristles(p)) {
     const Vector2d d = bristles(state);
-    mu += p[kBristleStiffness] * d + p[kBristleDamping] * bristle_rate(slip, d, p);
+    mu += p[kBristleStiffness] * d + p[kBristleDamping] * bristle_rate(v, d, p);
   }
-  return -normal * mu;
+  return -normal * with_lateral(mu, p);
 }
 
 void GroundFriction::state_rate(const Vector2d& slip, double normal, const double* state, const double* p,
                                 double* rate) const {
   const Vector2d d = bristles(state);
   const bool loaded = normal > 0.0 && has_bristles(p);
-  const Vector2d result = loaded ? bristle_rate(slip, d, p) : Vector2d(-d / p[kRelaxation]);
+  const Vector2d result = loaded ? bristle_rate(with_lateral(slip, p), d, p) : Vector2d(-d / p[kRelaxation]);
   rate[0] = result.x();
   rate[1] = result.y();
 }
@@ -104,11 +111,12 @@ double GroundFriction::stored_energy(double normal, const double* state, const d
 double GroundFriction::dissipated_power(const Vector2d& slip, double normal, const double* state,
                                         const double* p) const {
   if (!(normal > 0.0)) return 0.0;
-  double power = p[kViscous] * slip.squaredNorm();
+  const Vector2d v = with_lateral(slip, p);
+  double power = p[kViscous] * v.squaredNorm();
   if (has_bristles(p)) {
     const Vector2d d = bristles(state);
-    const Vector2d rate = bristle_rate(slip, d, p);
-    power += p[kBristleStiffness] * d.dot(slip - rate) + p[kBristleDamping] * rate.dot(slip);
+    const Vector2d rate = bristle_rate(v, d, p);
+    power += p[kBristleStiffness] * d.dot(v - rate) + p[kBristleDamping] * rate.dot(v);
   }
   return normal * power;
 }

@@ -12,8 +12,13 @@ namespace plumbline::contact {
 /// dd/dt = v - bristle_stiffness |v| / friction d      where normal > 0
 ///       = -d / relaxation                             where normal = 0
 /// v: slip, m/s; d: mean bristle deflection, m (states "bristle_x", "bristle_y"); both vectors of the
-/// ground's plane, |v| the Euclidean norm: no direction is preferred. Stored energy: normal bristle_stiffness
-/// |d|^2/2.
+/// ground's plane, |v| the Euclidean norm: no direction is preferred while lateral is 1. Stored energy:
+/// normal bristle_stiffness |d|^2/2.
+///
+/// With lateral < 1 the bristles see only that share of the slip across the foot (its y), and that share of
+/// their force comes back: force . slip, and with it every statement on energy below, stays as it is for the
+/// slip that is seen. 0 is a foot that rolls or gives sideways, as a robot on a boom needs: its legs lean
+/// with the boom's pitch.
 ///
 /// Source: Park et al. (2011), equations 30 to 32, with a force that opposes the slip. mu of equation 32 is a
 /// number, so sigma_0 is in 1/m, sigma_1 and alpha_2 are in s/m and alpha_0 in 1; the N/m, N s/m and N of

@@ -34,6 +34,7 @@ struct Touch {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   double depth = 0.0;                                  ///< in the ground when above 0, m
+  Eigen::Vector2d left = Eigen::Vector2d::UnitY();     ///< of its link (the frame's y) along the ground
   Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< of the ground on the foot, N
 };
 

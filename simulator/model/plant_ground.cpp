@@ -53,20 +53,27 @@ Touch Plant::touch(const FootSlot& slot) const {
   Touch touch;
   touch.position = tree.station(slot.body, model_.feet[static_cast<std::size_t>(slot.foot)].point);
   touch.velocity = tree.station_velocity(slot.body, touch.position);
+  const Eigen::Vector2d left = tree.rotation(slot.body).col(1).head<2>();
+  if (left.norm() > 1e-3) {  // a link on its side has no left: then the world's
+    touch.left = left.normalized();
+  }
   touch.depth = terrain_.height_at(touch.position.x()) - touch.position.z();
   return touch;
 }
 
 void Plant::press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const {
   const double rate = -touch.velocity.z();
-  const Eigen::Vector2d slip = touch.velocity.head<2>();
+  const Eigen::Vector2d forward(touch.left.y(), -touch.left.x());
+  const Eigen::Vector2d velocity = touch.velocity.head<2>();
+  const Eigen::Vector2d slip(forward.dot(velocity), touch.left.dot(velocity));
   touch.force.setZero();
   for (const FootSlot::Normal& use : slot.normals) {
     touch.force.z() += use.law->force(touch.depth, rate, values(use.effect));
   }
   for (const FootSlot::Drag& use : slot.drags) {
     const double* state = use.state >= 0 ? x + use.state : nullptr;
-    touch.force.head<2>() += use.law->force(slip, touch.force.z(), state, values(use.effect));
+    const Eigen::Vector2d drag = use.law->force(slip, touch.force.z(), state, values(use.effect));
+    touch.force.head<2>() += drag.x() * forward + drag.y() * touch.left;
     if (xdot != nullptr && use.state >= 0) {
       use.law->state_rate(slip, touch.force.z(), state, values(use.effect), xdot + use.state);
     }

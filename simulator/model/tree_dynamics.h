@@ -35,6 +35,8 @@ class TreeDynamics {
   /// M (symmetric, coordinates x coordinates) and h (gravity, Coriolis and centrifugal terms) for rates v.
   void assemble(const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
 
+  /// Orientation of a body in the world.
+  const Eigen::Matrix3d& rotation(int body) const { return R_[static_cast<std::size_t>(body)]; }
   /// Position and velocity in the world of a point fixed on a body, m and m/s.
   Eigen::Vector3d station(int body, const Eigen::Vector3d& p_B) const;
   Eigen::Vector3d station_velocity(int body, const Eigen::Vector3d& p_W) const;

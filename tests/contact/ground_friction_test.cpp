@@ -294,5 +294,25 @@ TEST_F(GroundFrictionTest, BalancesItsEnergyUnderAChangingLoad) {
   EXPECT_NEAR(x[3] + stored + x[4], x[5], 1e-8 * (std::abs(x[3]) + x[4]));
 }
 
+// A foot that rolls sideways feels nothing there, and forward what it felt before; in between, the power that
+// the ground takes is that of the slip which is felt.
+TEST_F(GroundFrictionTest, LateralIsTheShareOfTheSlipThatIsFelt) {
+  Values rolling = p;
+  rolling[static_cast<std::size_t>(law.parameter_index("lateral"))] = 0.0;
+  const Vector2d d(0.004, 0.0);
+  const Vector2d sideways = law.force({0.0, 0.7}, kNormal, Vector2d::Zero().eval().data(), rolling.data());
+  EXPECT_EQ(sideways.norm(), 0.0);
+  EXPECT_EQ(bristle_rate({0.0, 0.7}, kNormal, Vector2d::Zero(), rolling).norm(), 0.0);
+  const Vector2d slanted = law.force({0.3, 0.7}, kNormal, d.data(), rolling.data());
+  EXPECT_EQ(slanted, force({0.3, 0.0}, d));
+
+  Values half = p;
+  half[static_cast<std::size_t>(law.parameter_index("lateral"))] = 0.5;
+  const Vector2d slip(0.2, -0.6);
+  const Vector2d bent(0.003, -0.002);
+  const double power = law.force(slip, kNormal, bent.data(), half.data()).dot(slip);
+  EXPECT_NEAR(power, force({0.2, -0.3}, bent).dot(Vector2d(0.2, -0.3)), 1e-12 * std::abs(power));
+}
+
 }  // namespace
 }  // namespace plumbline::contact
