@@ -20,11 +20,11 @@ HopRecorder::HopRecorder(const model::Model& model) {
   columns_.push_back({"torso_wanted", "rad", {}});
 }
 
-void HopRecorder::row(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& u,
+void HopRecorder::row(double t, const Eigen::VectorXd& outputs, const Eigen::VectorXd& command,
                       const std::vector<model::Touch>& touches, const controllers::Hopping& controller) {
   values_.push_back(t);
-  values_.insert(values_.end(), y.data(), y.data() + y.size());
-  values_.insert(values_.end(), u.data(), u.data() + u.size());
+  values_.insert(values_.end(), outputs.data(), outputs.data() + outputs.size());
+  values_.insert(values_.end(), command.data(), command.data() + command.size());
   for (const model::Touch& touch : touches) {
     values_.insert(values_.end(), touch.force.data(), touch.force.data() + 3);
   }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "simulator/trace/error.h"
 
@@ -36,14 +35,14 @@ controllers::Hopping make(const controllers::HoppingConfig& config, const std::s
 
 }  // namespace
 
-HoppingLoop::HoppingLoop(const model::Model& model, controllers::HoppingConfig config)
+HoppingLoop::HoppingLoop(const model::Model& model, const controllers::HoppingConfig& config)
     : in_the_plane_(model.sensor_index("boom_pitch") < 0),
       left_(find_leg(model, "left")),
       right_(find_leg(model, "right")),
       torso_(find_encoder(model, "torso")),
       tower_(find_encoder(model, in_the_plane_ ? "hip_x" : "tower")),
       boom_pitch_(find_encoder(model, in_the_plane_ ? "hip_z" : "boom_pitch")),
-      config_(with_resolutions(std::move(config))),
+      config_(with_resolutions(config)),
       controller_(make(config_, model.file)) {}
 
 std::int64_t HoppingLoop::Encoder::counts(const Eigen::VectorXd& outputs) const {

@@ -17,7 +17,7 @@ class HoppingLoop {
  public:
   /// `config` without resolutions: those are the model's. Throws InputError when the model lacks a name, a
   /// sensor has no resolution or the controller refuses its constants.
-  HoppingLoop(const model::Model& model, controllers::HoppingConfig config);
+  HoppingLoop(const model::Model& model, const controllers::HoppingConfig& config);
 
   /// One sample. `outputs`: all sensors of the model, true positions; `command` of all motors is written.
   void command(const Eigen::VectorXd& outputs, const std::vector<model::Touch>& touches, double* command);
