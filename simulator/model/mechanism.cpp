@@ -3,6 +3,7 @@
 #include <Simbody.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -165,6 +166,12 @@ const TreeDynamics& Mechanism::tree() const { return *impl_->tree; }
 void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M,
                          Eigen::VectorXd& h) {
   Impl& d = *impl_;
+  if (!q.allFinite()) {  // Simbody would throw: an integrator that has gone astray wants to be told by the
+                         // rates
+    M.setConstant(d.size, d.size, std::numeric_limits<double>::quiet_NaN());
+    h.setConstant(d.size, std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   d.set_state(q, v);
   d.realize_position();
   for (std::size_t b = 0; b < d.moving.size(); ++b) {

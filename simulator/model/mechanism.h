@@ -30,7 +30,7 @@ class Mechanism {
   /// Kinematics at the positions and velocities evaluated last.
   const TreeDynamics& tree() const;
 
-  /// M, size() x size(), and h.
+  /// M, size() x size(), and h; not a number where a position is none.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
 
   /// Gravity's potential plus kinetic energy of the links, J.

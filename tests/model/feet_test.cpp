@@ -140,6 +140,15 @@ TEST_F(FeetTest, FrictionOpposesTheSlip) {
   EXPECT_NEAR(touch.force.x() / touch.force.z(), -(0.5 + 0.1 * v), 0.01);
 }
 
+TEST_F(FeetTest, AStateThatIsNoNumberGivesRatesThatAreNone) {
+  Plant plant(model(9.81, kFoot, ground(3e5, true)), {});
+  Eigen::VectorXd x = Eigen::VectorXd::Constant(plant.states(), 0.1);
+  x[0] = std::nan("");
+  Eigen::VectorXd rate(plant.states());
+  EXPECT_NO_THROW(plant.rate(x.data(), nullptr, rate.data()));
+  EXPECT_FALSE(rate.allFinite());
+}
+
 TEST_F(FeetTest, BadFeetAreRefused) {
   EXPECT_THAT(refusal("{link: blok, value: [0, 0, 0], unit: m, assumed: test}"),
               AllOf(HasSubstr("model.yaml"), HasSubstr("blok"), HasSubstr("block")));

@@ -133,7 +133,15 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
   for (Refit& one : refits) {
     if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
       progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
-      continue_refit(one, data, 8);
+      Refit further = one;
+      try {
+        continue_refit(further, data, 8);
+        one = std::move(further);
+      } catch (const Stopped&) {
+        throw;
+      } catch (const std::runtime_error&) {
+        continue;  // where the fit would go it cannot be integrated: it stays where it is
+      }
     }
   }
   sort_by_error(refits);
@@ -272,12 +280,18 @@ std::string objection(const Stage& stage, const Candidate& candidate, const Refi
       return "unphysical: " + parameter.label + " is at its bound";
     }
   }
-  const double apart = disagreement(refit, data);
-  if (apart > options.consistent) {
-    return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+  try {
+    const double apart = disagreement(refit, data);
+    if (apart > options.consistent) {
+      return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+    }
+    const std::string open = undecided(candidate, refit, data);
+    return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return "unsteady: close to its fitted values it cannot be integrated";
   }
-  const std::string open = undecided(candidate, refit, data);
-  return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
 }
 
 }  // namespace plumbline::validation
