@@ -164,9 +164,8 @@ void RosenbrockBackend::step(double t_stop) {
   for (int trial = 0;; ++trial) {
     h = std::min(h, t_stop - t_);
     if (options_.max_step > 0.0) h = std::min(h, options_.max_step);
-    const double error = fixed ? 0.0 : try_step(h);
-    if (fixed) try_step(h);
-    const bool accepted = error <= 1.0;
+    const double error = try_step(h);
+    const bool accepted = fixed || error <= 1.0;
     const double after = t_ + h;
     next_ = control_.next(accepted ? after : t_, h, error);
     if (accepted) {

@@ -1,11 +1,8 @@
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
-#include "simulator/trace/table.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
@@ -110,8 +107,7 @@ void run_once(const Options& options, const model::Model& model, const controlle
   run_options.trace = !options.out.empty();
   const HopRun run = validation::hop(model, config, options.start, run_options);
   if (run_options.trace) {
-    std::filesystem::path(options.out).extension() == ".mat" ? write_mat(run.trace, options.out)
-                                                             : write_csv(run.trace, options.out);
+    write_trace(run.trace, options.out);
   }
   write_json(to_json(run), options.json);
   print(run);
@@ -185,7 +181,7 @@ void run_search(const Options& options, const model::Model& model, const control
 }
 
 void run(Options options) {
-  check_writable(options.out);
+  check_trace_file(options.out);
   check_writable(options.json);
   check_not_an_input(options.out, {options.model, options.controller});
   if (!options.out.empty() && (options.starts > 1 || options.search > 0)) {

@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -22,17 +20,6 @@ struct Options {
   std::string trial, experiment, model, data_folder, out, json;
   validation::ReplayOptions replay;
 };
-
-bool is_mat(const std::string& file) { return std::filesystem::path(file).extension() == ".mat"; }
-
-void check_output(const Options& options) {
-  const std::string extension = std::filesystem::path(options.out).extension().string();
-  if (!options.out.empty() && extension != ".csv" && extension != ".mat") {
-    throw InputError({options.out, 0, ""}, "extension \"" + extension + "\"", ".csv or .mat");
-  }
-  check_writable(options.out);
-  check_writable(options.json);
-}
 
 Replay replay_trial(const Options& options, std::string& model_file) {
   model_file = options.model.empty() ? validation::model_of_trial(options.trial) : options.model;
@@ -129,7 +116,8 @@ void check_choice(const Options& options) {
 
 void run(Options options) {
   check_choice(options);
-  check_output(options);
+  check_trace_file(options.out);
+  check_writable(options.json);
   check_not_an_input(options.out, {options.model, options.experiment});
   integrate::Options& integrator = options.replay.integrator;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
@@ -138,7 +126,7 @@ void run(Options options) {
   std::string model = options.model;
   const Replay replay = options.trial.empty() ? replay_experiment(options) : replay_trial(options, model);
   if (!options.out.empty()) {
-    is_mat(options.out) ? write_mat(replay.trace, options.out) : write_csv(replay.trace, options.out);
+    write_trace(replay.trace, options.out);
   }
   write_json(to_json(replay, options, model), options.json);
   print(replay, options);

@@ -35,6 +35,18 @@ void check_writable(const std::string& file) {
   }
 }
 
+void check_trace_file(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (!file.empty() && extension != ".csv" && extension != ".mat") {
+    throw InputError({file, 0, ""}, "extension \"" + extension + "\"", ".csv or .mat");
+  }
+  check_writable(file);
+}
+
+void write_trace(const Table& trace, const std::string& file) {
+  std::filesystem::path(file).extension() == ".mat" ? write_mat(trace, file) : write_csv(trace, file);
+}
+
 void check_not_an_input(const std::string& file, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     std::error_code none;

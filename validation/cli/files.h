@@ -5,10 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "simulator/trace/table.h"
+
 namespace plumbline::cli {
 
 /// Throws InputError when `file` could not be written; leaves nothing behind. Empty: nothing is checked.
 void check_writable(const std::string& file);
+
+/// The same for the file of a trace, which also must be named .csv or .mat.
+void check_trace_file(const std::string& file);
+void write_trace(const Table& trace, const std::string& file);
 
 /// Throws InputError when `file` is one of the `inputs`.
 void check_not_an_input(const std::string& file, const std::vector<std::string>& inputs);

@@ -4,12 +4,17 @@
 
 namespace plumbline::validation {
 
+HipAxes hip_axes(const model::Model& model) {
+  const bool in_the_plane = model.sensor_index("boom_pitch") < 0;
+  return {in_the_plane, in_the_plane ? "hip_x" : "tower", in_the_plane ? "hip_z" : "boom_pitch"};
+}
+
 HipWatch::HipWatch(const model::Model& model, const controllers::HoppingConfig& config)
-    : in_the_plane_(model.sensor_index("boom_pitch") < 0),
+    : in_the_plane_(hip_axes(model).in_the_plane),
       boom_length_(config.boom_length),
       torso_(model.sensor_index("torso")),
-      travel_(model.sensor_index(in_the_plane_ ? "hip_x" : "tower")),
-      height_(model.sensor_index(in_the_plane_ ? "hip_z" : "boom_pitch")) {}
+      travel_(model.sensor_index(hip_axes(model).travel)),
+      height_(model.sensor_index(hip_axes(model).height)) {}
 
 double HipWatch::travel(const Eigen::VectorXd& outputs) const {
   return in_the_plane_ ? outputs[travel_] : boom_length_ * outputs[travel_];

@@ -2,11 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "controllers/hopping_config.h"
 #include "simulator/model/model.h"
 
 namespace plumbline::validation {
+
+/// How the hip moves: at a boom (turn of the tower, boom pitch) or in the plane (hip_x, hip_z).
+struct HipAxes {
+  bool in_the_plane;
+  std::string travel, height;  ///< names of the coordinates and of their sensors
+};
+HipAxes hip_axes(const model::Model& model);
 
 /// For a robot at its boom (sensors tower and boom_pitch) or in the plane (hip_x and hip_z).
 class HipWatch {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "validation/hopping/hip_watch.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -37,9 +39,7 @@ Eigen::VectorXd solve_for(model::Plant& plant, const Wanted& wanted, bool veloci
 
 Eigen::VectorXd start_state(model::Plant& plant, const controllers::HoppingConfig& config,
                             const HopStart& start) {
-  const bool in_the_plane = plant.model().find_coordinate("boom_pitch") == nullptr;
-  const std::string height = in_the_plane ? "hip_z" : "boom_pitch";
-  const std::string travel = in_the_plane ? "hip_x" : "tower";
+  const auto [in_the_plane, travel, height] = hip_axes(plant.model());
   const double arm = in_the_plane ? 1.0 : config.boom_length;
   const controllers::HoppingParameters& p = config.parameters;
   Wanted pose{{travel, 0.0},

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "simulator/trace/error.h"
+#include "validation/hopping/hip_watch.h"
 
 namespace plumbline::validation {
 namespace {
@@ -36,12 +37,12 @@ controllers::Hopping make(const controllers::HoppingConfig& config, const std::s
 }  // namespace
 
 HoppingLoop::HoppingLoop(const model::Model& model, const controllers::HoppingConfig& config)
-    : in_the_plane_(model.sensor_index("boom_pitch") < 0),
+    : in_the_plane_(hip_axes(model).in_the_plane),
       left_(find_leg(model, "left")),
       right_(find_leg(model, "right")),
       torso_(find_encoder(model, "torso")),
-      tower_(find_encoder(model, in_the_plane_ ? "hip_x" : "tower")),
-      boom_pitch_(find_encoder(model, in_the_plane_ ? "hip_z" : "boom_pitch")),
+      tower_(find_encoder(model, hip_axes(model).travel)),
+      boom_pitch_(find_encoder(model, hip_axes(model).height)),
       config_(with_resolutions(config)),
       controller_(make(config_, model.file)) {}
 
