@@ -432,7 +432,10 @@ INSTANTIATE_TEST_SUITE_P(
     Usage, BadInputs,
     testing::Values(
         BadInput{"no_command", {}, {}, {"subcommand"}},
-        BadInput{"unknown_command", {}, {"comprae", "trials/steps"}, {"subcommand"}},
+        BadInput{"unknown_command",
+                 {},
+                 {"comprae", "trials/steps"},
+                 {"found an unknown command \"comprae\"", "did you mean compare?"}},
         BadInput{"unknown_option", {}, {"compare", "trials/steps", "--modle", "x"}, {"--modle"}},
         BadInput{"no_trial", {}, {"compare"}, {"trial"}},
         BadInput{"no_pattern", {}, {"fit", "trials/steps"}, {"--free"}},

@@ -10,27 +10,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-std::string good_experiment() {
-  return R"(plumbline: experiment/1
-title: A test
-role: held-out
-duration: {value: 2, unit: s}
-sample_period: {value: 10, unit: ms}
-start: {leg: {value: 12, unit: deg}, carriage: {value: 4, unit: mm}}
-locked: [mLeg]
-commands:
-  mLeg:
-    - {kind: stepped_chirp, from: 1 Hz, to: 4 Hz, steps: 2, first_amplitude: 1, last_amplitude: 2, unit: N m}
-    - {kind: constant, value: 100, unit: N mm}
-    - {kind: ramp, start: 0, end: 1, unit: N m}
-  drive:
-    - {kind: multisine, frequencies: [2 Hz], amplitudes: [5], phases: [90 deg], unit: V}
-    - {kind: steps, times: [0.5 s], levels: [250], unit: mV}
-    - {kind: pulses, times: [1 s], width: 20 ms, level: 1, unit: V}
-    - {kind: filtered_noise, deviation: 1e-9, corner: 5 Hz, seed: 1, unit: V}
-)";
-}
-
 class ReadExperiment : public ScratchFolder {
  protected:
   Experiment read(const std::string& text) {

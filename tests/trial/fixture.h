@@ -8,27 +8,10 @@
 #include <sstream>
 #include <string>
 
-#include "simulator/model/model.h"
 #include "simulator/trace/error.h"
+#include "tests/trial/texts.h"
 
 namespace plumbline::validation {
-
-/// Two motors (one turns and takes torque, one slides and takes voltage), a sensor on each.
-inline model::Model small_robot() {
-  model::Model robot;
-  robot.file = "robot.yaml";
-  robot.coordinates = {{"leg", true, {{"hip", 1.0}}}, {"carriage", false, {{"slide", 1.0}}}};
-  model::Motor turning;
-  turning.name = "mLeg";
-  turning.command_unit = "N m";
-  model::Motor sliding;
-  sliding.name = "drive";
-  sliding.angular = false;
-  sliding.command_unit = "V";
-  robot.motors = {turning, sliding};
-  robot.sensors = {{"angle", "mLeg", 0.003, 0, 0, ""}, {"place", "carriage", 1e-7, 0, 0, ""}};
-  return robot;
-}
 
 inline void write_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -80,44 +63,5 @@ class ScratchFolder : public testing::Test {
   std::filesystem::path folder;
   const model::Model robot = small_robot();
 };
-
-/// 30 rows at 10 ms: torque k/10, voltage k in mV, angle k in degrees, place 2k in mm, reference 3k in mm.
-inline std::string good_csv() {
-  std::ostringstream csv;
-  csv << "t [s],u [N m],v [mV],angle [deg],place [mm],reference [mm]\n";
-  for (int k = 0; k < 30; ++k) {
-    csv << 0.01 * k << ',' << 0.1 * k << ',' << k << ',' << k << ',' << 2 * k << ',' << 3 * k << '\n';
-  }
-  return csv.str();
-}
-
-inline std::string good_trial() {
-  return R"(plumbline: trial/1
-title: A test
-model: ../robots/robot.yaml
-role: train
-data: data.csv
-time: {column: t, unit: s}
-commands:
-  mLeg: {column: u, unit: N m}
-  drive: {column: v}
-measured:
-  angle: {column: angle, unit: deg}
-  place: {column: place}
-locked:
-  leg: {value: 90, unit: deg}
-  drive: {value: 5, unit: mm}
-controllers:
-  - kind: cascade_pd
-    motor: drive
-    sensor: place
-    reference: {column: reference}
-    position_gain: {value: 160, unit: 1/s, source: test}
-    velocity_gain: {value: 0.25, unit: V s/mm, source: test}
-    command_limit: {value: 10, unit: V}
-    velocity_over: 2
-events: [0.1 s, 200 ms]
-)";
-}
 
 }  // namespace plumbline::validation

@@ -243,7 +243,7 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
       ->type_name("FILE");
   add_json_option(*command, options->json);
   command->footer(
-      "Examples:\n  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml -o hops.csv\n"
+      "Example:\n  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml -o hops.csv\n"
       "  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml --starts 48 --hops 40");
   command->callback([options] { run(*options); });
 }

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "simulator/trace/error.h"
@@ -14,6 +15,27 @@ std::string one_line(std::string text) {
     c = c == '\n' ? ' ' : c;
   }
   return text;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+/// CLI11 says only that a command is required when the one given is unknown.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') {
+    return;
+  }
+  const std::string given = argv[1];
+  const std::vector<std::string> known = command_names(app);
+  if (std::find(known.begin(), known.end(), given) == known.end()) {
+    throw plumbline::InputError("found an unknown command \"" + given + "\", expected a command" +
+                                plumbline::nearest_names(given, known));
+  }
 }
 
 }  // namespace
@@ -36,6 +58,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_ladder(app, outcome);
     plumbline::cli::add_new_trial(app, outcome);
     plumbline::cli::add_twin(app, outcome);
+    refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {

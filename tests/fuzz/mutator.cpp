@@ -1,4 +1,4 @@
-#include "tests/model/mutator.h"
+#include "tests/fuzz/mutator.h"
 
 #include <array>
 #include <utility>

@@ -1,5 +1,4 @@
-// The readers of text formats, each as a function from text to a verdict. (MATLAB files are matio's
-// business.)
+// The readers of files, each as a function from the file's bytes to a verdict.
 #pragma once
 
 #include <functional>

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "simulator/trace/error.h"
-#include "tests/model/mutator.h"
-#include "tests/model/reader_targets.h"
+#include "tests/fuzz/mutator.h"
+#include "tests/fuzz/reader_targets.h"
 #include "tests/trace/temporary_folder.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -34,7 +34,7 @@ TEST(ReaderFuzzTest, GoodTextsAreAccepted) {
 TEST(ReaderFuzzTest, DamagedTextsAreRefusedOrRead) {
   const TemporaryFolder folder;
   for (const ReaderTarget& target : reader_targets(folder.path(""))) {
-    const bool slow = target.name == "sdf" || target.name == "urdf";
+    const bool slow = target.name == "sdf" || target.name == "urdf" || target.name == "mat";
     const int count = slow ? 40 : 1500;
     Mutator mutator(20260101);
     for (int i = 0; i < count; ++i) {

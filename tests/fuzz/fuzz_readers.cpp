@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "tests/model/mutator.h"
-#include "tests/model/reader_targets.h"
+#include "tests/fuzz/mutator.h"
+#include "tests/fuzz/reader_targets.h"
 
 namespace {
 

@@ -1,9 +1,10 @@
-#include "tests/model/reader_targets.h"
+#include "tests/fuzz/reader_targets.h"
 
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "simulator/model/robot_reader.h"
 #include "simulator/trace/error.h"
@@ -11,6 +12,10 @@
 #include "simulator/trace/units.h"
 #include "tests/model/robot_texts.h"
 #include "tests/model/test_laws.h"
+#include "tests/trial/texts.h"
+#include "validation/hopping/hopping_file.h"
+#include "validation/trial/trial.h"
+#include "validation/twin/experiment.h"
 
 namespace plumbline::test {
 namespace {
@@ -91,6 +96,40 @@ std::string incredible(const Table& table) {
   return table.columns.empty() ? "no columns" : "";
 }
 
+std::string incredible(const validation::Trial& trial) {
+  if (!trial.time.allFinite() || trial.measured.empty()) {
+    return "no samples";
+  }
+  for (const validation::Measured& channel : trial.measured) {
+    if (channel.values.size() != trial.time.size() || !channel.values.allFinite()) {
+      return "impossible channel " + channel.sensor;
+    }
+  }
+  return "";
+}
+
+std::string incredible(const validation::Experiment& experiment) {
+  for (const validation::Command& command : experiment.commands) {
+    if (command.values.size() != experiment.time.size() || !command.values.allFinite()) {
+      return "impossible command " + command.motor;
+    }
+  }
+  return experiment.period > 0.0 ? "" : "impossible sample period";
+}
+
+std::string file_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The bytes of a good MATLAB file.
+std::string good_mat(const std::string& folder) {
+  const Table table{
+      "", {{"t", "s", Eigen::VectorXd::LinSpaced(20, 0.0, 1.9)}, {"u", "", Eigen::VectorXd::Ones(20)}}};
+  write_mat(table, folder + "/good.mat");
+  return file_text(folder + "/good.mat");
+}
+
 std::string check_unit(const std::string& text) {
   if (!unit_is_known(text)) {
     to_si_factor(text);  // must throw
@@ -107,6 +146,7 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
   put(folder + "/model.yaml", kModel);
   const model::Skeleton skeleton = model::read_skeleton(folder + "/arm.sdf");
   const auto given = [skeleton](const std::string&) { return skeleton; };
+  const model::Model robot = validation::small_robot();
   const auto catalogue = test_catalogue();
   const auto read_model = [=](const std::string& path) {
     return verdict([&] { return incredible(model::read_model(path, catalogue, given)); });
@@ -126,6 +166,40 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
        [=](const std::string& text) {
          const std::string path = put(folder + "/input.csv", text);
          return verdict([&] { return incredible(read_csv(path)); });
+       }},
+      {"mat",
+       {good_mat(folder)},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/input.mat", text);
+         return verdict([&] {
+           const Table table = read_mat(path);
+           for (const Column& column : table.columns) {
+             require_finite(table, column.name);  // as a trial does with the columns that it uses
+           }
+           return incredible(table);
+         });
+       }},
+      {"trial",
+       {validation::good_trial()},
+       [=](const std::string& text) {
+         put(folder + "/data.csv", validation::good_csv());
+         put(folder + "/trial.yaml", text);
+         return verdict([&] { return incredible(validation::read_trial(folder, robot)); });
+       }},
+      {"experiment",
+       {validation::good_experiment()},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/experiment.yaml", text);
+         return verdict([&] { return incredible(validation::read_experiment(path, robot)); });
+       }},
+      {"controller",
+       {file_text(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml")},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/controller.yaml", text);
+         return verdict([&] {
+           validation::read_hopping(path);
+           return std::string();
+         });
        }},
       {"unit",
        {"N m s/rad", "kg m^2", "deg", "1e-3 mN.m/A^2", "m/s^2"},
