@@ -60,7 +60,7 @@ std::vector<Values> HardStop::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
   std::vector<Values> grid;
   for (const double side : {1.0, -1.0}) {
-    for (const double share : {0.2, 0.5, 0.8}) {
+    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       Values p = null_values();
       p[kPosition] = s.center + side * share * s.position;
       p[kSide] = side;

@@ -31,8 +31,7 @@ const Declaration& UnilateralSpring::declaration() const {
       {non_negative("stiffness", "{force}/{position}", "stiffness"),
        non_negative("preload", "{force}", "force at the beginning of the deflection"),
        any("rest", "{position}", "position where the spring begins"), fixed_side(),
-       fixed("smoothing_length", "{position}", "deflection over which the preload builds up", 1e-3,
-             kSmallestPositive, kInfinity)},
+       positive("smoothing_length", "{position}", "deflection over which the preload builds up", 1e-3)},
       {},
       ""};
   return kDeclaration;
@@ -47,7 +46,7 @@ std::vector<Values> UnilateralSpring::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
   std::vector<Values> grid;
   for (const double side : {1.0, -1.0}) {
-    for (const double share : {0.0, -0.4, 0.4}) {
+    for (const double share : {0.0, -0.2, 0.2, -0.4, 0.4, -0.6, 0.6}) {
       Values p = null_values();
       p[kRest] = s.center + share * s.position;
       p[kSide] = side;

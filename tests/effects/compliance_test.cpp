@@ -142,7 +142,17 @@ TEST(UnilateralSpring, ActsOnItsSideOnly) {
 
 TEST(UnilateralSpring, StartsOnBothSidesAroundTheCentre) {
   const auto law = law_named("unilateral_spring");
-  EXPECT_EQ(law->starts(test_scales()).size(), 6U);
+  Scales scales = test_scales();
+  scales.center = 0.3;
+  double above = 0.0, below = 0.0;
+  for (const Values& start : law->starts(scales)) {
+    const double side = start[3];
+    const double share = (start[2] - scales.center) / scales.position;
+    EXPECT_LE(std::abs(share), 0.9);  // inside the motion
+    (side > 0.0 ? above : below) += 1.0 + share;
+  }
+  EXPECT_GE(above, 3.0);
+  EXPECT_DOUBLE_EQ(above, below);
 }
 
 // Holtz and Springob 1996: repeats every 2 pi/N, no mean, amplitude sqrt(A_s^2 + A_c^2).

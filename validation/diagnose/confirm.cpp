@@ -127,15 +127,25 @@ void sort_by_error(std::vector<Refit>& refits) {
                    [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
 }
 
-/// Full refits of those that are near the best.
+/// Nothing is left to explain by the best (`refits` is sorted).
+bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
+  return !refits.empty() && refits.front().square() <= 2.0 * options.finished * options.finished;
+}
+
+/// Full refits of those that are near the best; above the floor of the first few in any case: the best so far
+/// may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
-            const Progress& progress) {
-  for (Refit& one : refits) {
-    if (!one.estimate.converged && one.square() < 1.15 * refits.front().square() + 0.05) {
+            const DiagnoseOptions& options, const Progress& progress) {
+  constexpr std::size_t kFirst = 3;
+  const bool above = !at_floor(refits, options);
+  for (std::size_t r = 0; r < refits.size(); ++r) {
+    Refit& one = refits[r];
+    const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
+    if (!one.estimate.converged && (near || (above && r < kFirst))) {
       progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
       Refit further = one;
       try {
-        continue_refit(further, data, 8);
+        continue_refit(further, data, 16);
         one = std::move(further);
       } catch (const Stopped&) {
         throw;
@@ -207,18 +217,20 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     sort_by_error(refits);
   };
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    // Far from what another one has reached it cannot come near any more.
-    if (refits.size() < 2 || chosen[i]->promised() <= 2.5 * refits.front().square() + 0.3) {
+    // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
+    // best so far may itself be refused, and a promise made by a straight line says little.
+    if (refits.size() < 2 || !at_floor(refits, options) ||
+        chosen[i]->promised() <= 2.5 * refits.front().square() + 0.3) {
       add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
     }
   }
-  finish(refits, candidates, data, progress);
-  if (!refits.empty() && refits.front().square() > 2.0 * options.finished * options.finished) {
+  finish(refits, candidates, data, options, progress);
+  if (!refits.empty() && !at_floor(refits, options)) {
     for (const Hypothesis* other : other_starts(refits, hypotheses)) {
       add(*other, 0.9);
     }
     keep_best_of_each(refits);
-    finish(refits, candidates, data, progress);
+    finish(refits, candidates, data, options, progress);
   }
   return refits;
 }

@@ -19,16 +19,16 @@ struct Step {
   std::vector<Eigen::VectorXd> x;  // change of each initial state
 };
 
-Point moved(const Point& from, const Step& step, double share, const std::vector<FreeParameter>& parameters,
+Point moved(const Point& from, const Step& step, const std::vector<FreeParameter>& parameters,
             const Eigen::VectorXd& units) {
   Point to = from;
   for (Eigen::Index p = 0; p < units.size(); ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    const double search = to_search(parameter.scale, from.theta[p]) + share * step.delta[p] * units[p];
+    const double search = to_search(parameter.scale, from.theta[p]) + step.delta[p] * units[p];
     to.theta[p] = std::clamp(from_search(parameter.scale, search), parameter.lower, parameter.upper);
   }
   for (std::size_t w = 0; w < to.x0.size(); ++w) {
-    to.x0[w] += share * step.x[w];
+    to.x0[w] += step.x[w];
   }
   return to;
 }
@@ -51,31 +51,62 @@ double train_cost(const Data& data, const std::vector<Reduced>& reduced) {
   return cost;
 }
 
-/// The full step: parameters from the train windows within their room, every initial state after them.
-Step full_step(const Data& data, const std::vector<Reduced>& reduced, const Prior& known, const Room& bounds,
-               double* promise) {
-  const Eigen::Index n = bounds.lower.size();
-  Eigen::MatrixXd H = known.H.asDiagonal();
-  Eigen::VectorXd g = known.g;
-  double raw = 0.0;
-  double left = 0.0;
+/// Sums over the windows: equations of the train windows and of what is known beforehand, and what the
+/// initial states' own move brings.
+struct Equations {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+  double raw = 0.0, left = 0.0;
+};
+
+Equations add_up(const Data& data, const std::vector<Reduced>& reduced, const Prior& known) {
+  Equations sum{known.H.asDiagonal(), known.g, 0.0, 0.0};
   for (std::size_t w = 0; w < reduced.size(); ++w) {
-    raw += reduced[w].raw_sse;
-    left += reduced[w].sse;
+    sum.raw += reduced[w].raw_sse;
+    sum.left += reduced[w].sse;
     if (data.role(w) == Role::train) {
-      H += reduced[w].H;
-      g += reduced[w].g;
+      sum.H += reduced[w].H;
+      sum.g += reduced[w].g;
     }
   }
+  return sum;
+}
+
+/// Parameters from (H + damping diag(H)) delta = g within their room, every initial state after them.
+Step step_of(const Equations& sum, const std::vector<Reduced>& reduced, const Room& bounds, double damping) {
+  const bool any = bounds.lower.size() > 0;
   Step step;
-  step.delta = n > 0 ? box_least_squares(H, g, bounds.lower, bounds.upper) : Eigen::VectorXd();
-  const double gain = n > 0 ? 2.0 * g.dot(step.delta) - step.delta.dot(H * step.delta) : 0.0;
-  *promise = (gain + raw - left) / std::max(left, 1e-300);
+  if (any) {
+    Eigen::MatrixXd H = sum.H;
+    H.diagonal() *= 1.0 + damping;
+    step.delta = box_least_squares(H, sum.g, bounds.lower, bounds.upper);
+  }
   for (const Reduced& one : reduced) {
-    step.x.push_back(n > 0 ? Eigen::VectorXd(one.x_shift - one.x_slope * step.delta) : one.x_shift);
+    step.x.push_back(any ? Eigen::VectorXd(one.x_shift - one.x_slope * step.delta) : one.x_shift);
   }
   return step;
 }
+
+/// Share of the cost that the linearised windows promise to remove.
+double promise_of(const Equations& sum, const Step& step) {
+  const double gain =
+      step.delta.size() > 0 ? 2.0 * sum.g.dot(step.delta) - step.delta.dot(sum.H * step.delta) : 0.0;
+  return (gain + sum.raw - sum.left) / std::max(sum.left, 1e-300);
+}
+
+/// Marquardt's damping: none until a step fails, then as much as was needed, less after each success.
+class Damping {
+ public:
+  double value() const { return value_; }
+  void more() { value_ = std::max(kFactor * value_, kFirst); }
+  void less() { value_ = value_ > kLast ? value_ / kFactor : 0.0; }
+
+ private:
+  static constexpr double kFirst = 1e-3, kLast = 1e-5, kFactor = 10.0;
+  double value_ = 0.0;
+};
+
+constexpr int kAttempts = 6;  // from no damping up to 10
 
 bool is_finite(const std::vector<Reduced>& reduced) {
   return std::all_of(reduced.begin(), reduced.end(), [](const Reduced& one) {
@@ -105,17 +136,18 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
     throw std::runtime_error("the prediction is not finite at the start values");
   }
   Estimate result;
+  Damping damping;
   for (result.iterations = 1; result.iterations < options.iterations; ++result.iterations) {
-    double promise = 0.0;
     const Prior known = prior(parameters, units, here.theta);
-    const Step step = full_step(data, reduced, known, room(parameters, here.theta, units), &promise);
-    if (promise < options.tolerance) {
+    const Equations sum = add_up(data, reduced, known);
+    const Room bounds = room(parameters, here.theta, units);
+    if (promise_of(sum, step_of(sum, reduced, bounds, 0.0)) < options.tolerance) {
       result.converged = true;
       break;
     }
     bool better = false;
-    for (double share = 1.0; share > 0.01 && !better; share *= 0.3) {
-      const Point there = moved(here, step, share, parameters, units);
+    for (int attempt = 0; attempt < kAttempts && !better; ++attempt) {
+      const Point there = moved(here, step_of(sum, reduced, bounds, damping.value()), parameters, units);
       try {
         std::vector<Reduced> next = passes.reduce_at(there, units);
         const double cost = train_cost(data, next) + prior(parameters, units, there.theta).square;
@@ -128,8 +160,9 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
       } catch (const Stopped&) {
         throw;
       } catch (const std::runtime_error&) {
-        continue;  // the integrator gave up there: a shorter step
+        // the integrator gave up there: a shorter step
       }
+      better ? damping.less() : damping.more();
     }
     if (!better) {
       break;
