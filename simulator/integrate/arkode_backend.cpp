@@ -37,6 +37,7 @@ class ArkodeBackend : public OneStepBackend {
 
   void start(double t, const Eigen::VectorXd& x) override;
   Counts counts() const override;
+  int worst_state() const override;
 
  protected:
   void step(double t_stop) override;
@@ -59,7 +60,8 @@ class ArkodeBackend : public OneStepBackend {
   std::unique_ptr<void, FreeArkode> memory_;
   int order_ = 0;
   StepControl control_;
-  bool fresh_ = true;  // no step since the start
+  bool fresh_ = true;      // no step since the start
+  bool stepping_ = false;  // the first one is being tried
 };
 
 bool explicit_method(const Options& options) { return options.method == Method::explicit_rk; }
@@ -80,7 +82,12 @@ void ArkodeBackend::configure() {
   void* memory = memory_.get();
   require(ARKStepSetErrHandlerFn(memory, Bridge::message, &bridge_));
   require(ARKStepSetUserData(memory, &bridge_));
-  require(ARKStepSVtolerances(memory, options_.relative_tolerance, tolerance_view_.get()));
+  if (options_.weight == Weight::reach) {
+    bridge_.set_tolerances(options_.relative_tolerance, tolerance_);
+    require(ARKStepWFtolerances(memory, Bridge::weights));
+  } else {
+    require(ARKStepSVtolerances(memory, options_.relative_tolerance, tolerance_view_.get()));
+  }
   set_method();
   // States are wanted at the ends of steps only: no dense output, and no rates evaluated for it.
   require(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE));
@@ -131,7 +138,7 @@ void ArkodeBackend::configure_implicit() {
 void ArkodeBackend::require(int flag) {
   if (flag >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(ARKStepGetReturnFlagName(flag), &std::free);
-  bridge_.fail(to_string(options_.method), t_, bridge_.reason(name.get()));
+  fail(bridge_.reason(name.get()));
 }
 
 int ArkodeBackend::choose_step(N_Vector /*y*/, realtype t, realtype h1, realtype /*h2*/, realtype /*h3*/,
@@ -151,6 +158,7 @@ void ArkodeBackend::start(double t, const Eigen::VectorXd& x) {
   control_ = StepControl(order_);
   forget_switches();
   fresh_ = true;
+  stepping_ = false;
 }
 
 void ArkodeBackend::moved() { require(ARKStepReset(memory_.get(), t_, vector_.get())); }
@@ -158,6 +166,7 @@ void ArkodeBackend::moved() { require(ARKStepReset(memory_.get(), t_, vector_.ge
 void ArkodeBackend::evolve(double t_stop, int task) {
   control_.set_stop(t_, t_stop);
   require(ARKStepSetStopTime(memory_.get(), t_stop));
+  stepping_ = true;
   const int flag = ARKStepEvolve(memory_.get(), t_stop, vector_.get(), &t_, task);
   if (flag != ARK_TOO_MUCH_WORK) require(flag);
   fresh_ = false;
@@ -166,6 +175,17 @@ void ArkodeBackend::evolve(double t_stop, int task) {
 void ArkodeBackend::step(double t_stop) { evolve(t_stop, ARK_ONE_STEP); }
 
 void ArkodeBackend::steps(double t_stop) { evolve(t_stop, ARK_NORMAL); }
+
+int ArkodeBackend::worst_state() const {
+  if (fresh_ && !stepping_) return -1;
+  Eigen::VectorXd error = x_;
+  Eigen::VectorXd weight = x_;
+  const Vector error_view = view(error, context_);
+  const Vector weight_view = view(weight, context_);
+  ARKStepGetEstLocalErrors(memory_.get(), error_view.get());
+  ARKStepGetErrWeights(memory_.get(), weight_view.get());
+  return largest(error.array() * weight.array());
+}
 
 Counts ArkodeBackend::counts() const {
   Counts counts;

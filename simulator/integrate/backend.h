@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "simulator/integrate/bridge.h"
@@ -27,6 +28,12 @@ class Backend {
   /// then begun anew behind the switch.
   virtual bool advance(double t_stop) = 0;
   virtual Counts counts() const = 0;
+  /// The state whose local error was largest, by its weight, in the last step tried; -1: none.
+  virtual int worst_state() const = 0;
+
+  [[noreturn]] void fail(const std::string& reason) {
+    bridge_.fail(to_string(options_.method), t_, x_, reason + worst());
+  }
 
   double time() const { return t_; }
   void set_time(double t) { t_ = t; }
@@ -40,6 +47,11 @@ class Backend {
         options_(options),
         x_(Eigen::VectorXd::Zero(bridge.ode().size())),
         directions_(static_cast<std::size_t>(bridge.ode().switch_count()), 0) {}
+
+  /// " Largest local error: NAME.", or where there is no error yet, the state that changes fastest.
+  std::string worst();
+  /// Index of the largest |error| * weight, or of the first that is not finite; -1 when all are zero.
+  static int largest(const Eigen::ArrayXd& weighed);
 
   Bridge& bridge_;
   const Options options_;

@@ -30,7 +30,8 @@ Bridge::Bridge(Ode& ode, Method method)
       remember_rate_(method != Method::bdf),
       not_finite_code_(method == Method::explicit_rk ? 0 : 1),
       last_x_(Eigen::VectorXd::Zero(ode.size())),
-      last_xdot_(last_x_) {
+      last_xdot_(last_x_),
+      reach_(last_x_) {
   message_.reserve(512);
 }
 
@@ -111,6 +112,18 @@ int Bridge::project_correction(realtype t, N_Vector x, N_Vector correction, real
   return flag;
 }
 
+int Bridge::weights(N_Vector x, N_Vector weight, void* self) {
+  auto& bridge = *static_cast<Bridge*>(self);
+  try {
+    bridge.ode_.reach(NV_DATA_S(x), bridge.reach_.data());
+    map(weight) = (bridge.relative_ * bridge.reach_ + bridge.absolute_).cwiseInverse();
+    return 0;
+  } catch (...) {
+    bridge.thrown_ = std::current_exception();
+    return -1;
+  }
+}
+
 void Bridge::message(int /*code*/, const char* /*module*/, const char* /*function*/, char* text, void* self) {
   static_cast<Bridge*>(self)->message_ = text;
 }
@@ -122,6 +135,7 @@ void Bridge::reset() {
   not_finite_ = false;
   thrown_ = nullptr;
   message_.clear();
+  reach_.setZero();
   rate_evaluations = 0;
   jacobian_evaluations = 0;
   largest_projection = 0.0;
@@ -133,11 +147,13 @@ std::string Bridge::reason(const std::string& flag) const {
   return text;
 }
 
-void Bridge::fail(const std::string& method, double t, const std::string& reason) {
+void Bridge::fail(const std::string& method, double t, const Eigen::VectorXd& x, const std::string& reason) {
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   std::ostringstream text;
   text.precision(12);
   text << method << " failed after t = " << t << " s: " << reason;
+  const std::string stiffest = x.allFinite() ? ode_.stiffest(t, x.data()) : "";
+  if (!stiffest.empty()) text << " Stiffest: " << stiffest << '.';
   throw std::runtime_error(text.str());
 }
 

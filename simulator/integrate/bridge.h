@@ -26,6 +26,8 @@ class Bridge {
   static int project_state(realtype t, N_Vector x, void* self);
   static int project_correction(realtype t, N_Vector x, N_Vector correction, realtype epsilon, N_Vector error,
                                 void* self);
+  /// The inverse of relative tolerance * reach + absolute tolerance, for Weight::reach.
+  static int weights(N_Vector x, N_Vector weight, void* self);
   static void message(int code, const char* module, const char* function, char* text, void* self);
 
   Ode& ode() { return ode_; }
@@ -41,8 +43,16 @@ class Bridge {
   void reset();
   /// A failure of SUNDIALS in its own words.
   std::string reason(const std::string& flag) const;
-  /// Throws what the Ode threw, or else std::runtime_error with method, time and reason.
-  [[noreturn]] void fail(const std::string& method, double t, const std::string& reason);
+  /// Throws what the Ode threw, or else std::runtime_error with method, time, reason and what is stiffest at
+  /// x.
+  [[noreturn]] void fail(const std::string& method, double t, const Eigen::VectorXd& x,
+                         const std::string& reason);
+
+  /// For weights().
+  void set_tolerances(double relative, const Eigen::VectorXd& absolute) {
+    relative_ = relative;
+    absolute_ = absolute;
+  }
 
   long rate_evaluations = 0;
   long jacobian_evaluations = 0;
@@ -59,6 +69,8 @@ class Bridge {
   bool not_finite_ = false;
   double last_t_ = 0.0;
   Eigen::VectorXd last_x_, last_xdot_;
+  double relative_ = 0.0;
+  Eigen::VectorXd absolute_, reach_;
   std::exception_ptr thrown_;
   std::string message_;
 };

@@ -24,6 +24,7 @@ class CvodeBackend : public Backend {
   void input_changed(bool keep_history) override;
   bool advance(double t_stop) override;
   Counts counts() const override;
+  int worst_state() const override;
 
  private:
   void configure();
@@ -40,6 +41,7 @@ class CvodeBackend : public Backend {
   std::unique_ptr<void, FreeCvode> memory_;
   Counts earlier_;           // until the last restart
   bool fresh_ = true;        // no step since the last restart
+  bool stepping_ = false;    // some step has been tried since the start
   double first_step_ = 0.0;  // behind the last restart
 };
 
@@ -58,7 +60,12 @@ void CvodeBackend::configure() {
   require(CVodeSetErrHandlerFn(memory, Bridge::message, &bridge_));
   require(CVodeInit(memory, Bridge::rate, 0.0, vector_.get()));
   require(CVodeSetUserData(memory, &bridge_));
-  require(CVodeSVtolerances(memory, options_.relative_tolerance, tolerance_view_.get()));
+  if (options_.weight == Weight::reach) {
+    bridge_.set_tolerances(options_.relative_tolerance, tolerance_);
+    require(CVodeWFtolerances(memory, Bridge::weights));
+  } else {
+    require(CVodeSVtolerances(memory, options_.relative_tolerance, tolerance_view_.get()));
+  }
   require(CVodeSetLinearSolver(memory, dense_.solver.get(), dense_.matrix.get()));
   if (bridge_.ode().has_jacobian()) require(CVodeSetJacFn(memory, Bridge::jacobian));
   if (bridge_.ode().has_projection()) {
@@ -80,7 +87,7 @@ void CvodeBackend::configure() {
 void CvodeBackend::require(int flag) {
   if (flag >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
-  bridge_.fail("bdf", t_, bridge_.reason(name.get()));
+  fail(bridge_.reason(name.get()));
 }
 
 void CvodeBackend::begin_anew() {
@@ -92,6 +99,7 @@ void CvodeBackend::start(double t, const Eigen::VectorXd& x) {
   t_ = t;
   x_ = x;
   earlier_ = {};
+  stepping_ = false;
   first_step_ = 0.0;
   require(CVodeSetInitStep(memory_.get(), 0.0));
   begin_anew();
@@ -113,6 +121,7 @@ void CvodeBackend::input_changed(bool keep_history) {
 
 int CvodeBackend::evolve(double t_stop) {
   require(CVodeSetStopTime(memory_.get(), t_stop));
+  stepping_ = true;
   return CVode(memory_.get(), t_stop, vector_.get(), &t_, CV_NORMAL);
 }
 
@@ -129,6 +138,17 @@ bool CvodeBackend::advance(double t_stop) {
   require(CVodeGetRootInfo(memory_.get(), directions_.data()));
   restart();
   return true;
+}
+
+int CvodeBackend::worst_state() const {
+  if (fresh_ && !stepping_) return -1;
+  Eigen::VectorXd error = x_;
+  Eigen::VectorXd weight = x_;
+  const Vector error_view = view(error, context_);
+  const Vector weight_view = view(weight, context_);
+  CVodeGetEstLocalErrors(memory_.get(), error_view.get());
+  CVodeGetErrWeights(memory_.get(), weight_view.get());
+  return largest(error.array() * weight.array());
 }
 
 Counts CvodeBackend::counts_since_restart() const {

@@ -67,7 +67,7 @@ struct Integrator::Impl {
     }
   }
 
-  [[noreturn]] void fail(const std::string& reason) { bridge.fail(method, backend->time(), reason); }
+  [[noreturn]] void fail(const std::string& reason) { backend->fail(reason); }
 
   Options options;
   std::string method;
@@ -101,7 +101,7 @@ void Integrator::advance(double t_end) {
   while (t_end - backend.time() > roundoff(t_end)) {
     if (backend.counts().steps >= allowed) {
       impl_->fail("max_steps = " + std::to_string(impl_->options.max_steps) +
-                  " steps do not reach t = " + in_seconds(t_end));
+                  " steps do not reach t = " + in_seconds(t_end) + ".");
     }
     if (backend.advance(t_end)) impl_->record_switches();
   }

@@ -21,6 +21,19 @@ class Ode {
   virtual bool has_jacobian() const { return false; }
   virtual void jacobian(double t, const double* x, Eigen::Ref<Eigen::MatrixXd> J);
 
+  /// The rates of the first positions() states are the states behind them: x_i' = x_(positions + i). Linearly
+  /// implicit methods then solve for the others only. 0: not known.
+  virtual int positions() const { return 0; }
+
+  /// What the relative tolerance of each state is relative to under Weight::reach: raised to what x shows.
+  /// Here: the largest magnitude so far.
+  virtual void reach(const double* x, double* reach);
+
+  /// For the message of an integrator that gives up: a state's name, and where the fastest rate at x comes
+  /// from.
+  virtual std::string state_name(int state) const;
+  virtual std::string stiffest(double t, const double* x);
+
   /// Switching functions; the integrator stops at their zeros.
   virtual int switch_count() const { return 0; }
   virtual void switches(double t, const double* x, double* g);
@@ -34,14 +47,19 @@ class Ode {
 enum class Method { bdf, implicit_rk, explicit_rk, rosenbrock };
 std::string to_string(Method method);
 
+/// What a state's relative tolerance is relative to: its present magnitude, or the reach that the Ode states.
+/// The present magnitude asks for absolute accuracy of whatever passes through zero.
+enum class Weight { present, reach };
+
 struct Options {
   Method method = Method::explicit_rk;
   int order = 0;  ///< 0: the method's default (bdf 5, implicit 4, explicit 5, rosenbrock 3)
   double relative_tolerance = 1e-6;
   Eigen::VectorXd absolute_tolerance;  ///< one for each state, or one value for all; empty: 1e-9
-  double max_step = 0.0;               ///< 0: none
-  double fixed_step = 0.0;             ///< > 0: no error control (RK methods only; order tests)
-  long max_steps = 200000;             ///< between two stops
+  Weight weight = Weight::present;
+  double max_step = 0.0;    ///< 0: none
+  double fixed_step = 0.0;  ///< > 0: no error control (RK methods only; order tests)
+  long max_steps = 200000;  ///< between two stops
   void validate() const;  ///< throws std::invalid_argument naming the option, its value and the allowed range
 };
 
@@ -71,8 +89,9 @@ class Integrator {
   /// (cheap; right when the jump is small), otherwise restarts. One-step methods need no restart.
   void input_changed(bool keep_history);
   /// Advance exactly to t_end; switching functions are located on the way, recorded, and the method restarted
-  /// behind each. Throws std::runtime_error with method, time and SUNDIALS' reason on failure; what the Ode
-  /// throws passes through. After either, start again.
+  /// behind each. Throws std::runtime_error on failure: method, time, reason, the state with the largest
+  /// local error and the Ode's stiffest element. What the Ode throws passes through. After either, start
+  /// again.
   void advance(double t_end);
 
   double time() const;

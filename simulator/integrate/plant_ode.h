@@ -15,6 +15,13 @@ class PlantOde : public Ode {
   void rate(double t, const double* x, double* xdot) override;
   bool has_jacobian() const override { return true; }
   void jacobian(double t, const double* x, Eigen::Ref<Eigen::MatrixXd> J) override;
+  int positions() const override { return plant_.positions(); }
+  /// Positions: their present magnitude, because stops and contacts answer to where they are. Velocities: the
+  /// speed that would hold the largest kinetic energy so far, v_i = sqrt(w' M w / M_ii), so that a light
+  /// pulley is not held to its own slow creep. Hidden states: the largest so far.
+  void reach(const double* x, double* reach) override;
+  std::string state_name(int state) const override;
+  std::string stiffest(double t, const double* x) override;
   int switch_count() const override { return with_switches_ ? plant_.switch_count() : 0; }
   void switches(double t, const double* x, double* g) override;
 

@@ -51,12 +51,19 @@ class RosenbrockBackend : public OneStepBackend {
  public:
   RosenbrockBackend(Bridge& bridge, const Options& options)
       : OneStepBackend(bridge, options),
+        n_(x_.size()),
+        positions_(bridge.ode().has_jacobian() ? bridge.ode().positions() : 0),
+        rest_(n_ - positions_),
         control_(3),
-        J_(x_.size(), x_.size()),
-        W_(x_.size(), x_.size()),
-        u_(x_.size(), kStages),
+        J_(n_, n_),
+        W_(rest_, rest_),
+        u_(n_, kStages),
         trial_(x_),
-        f_(x_) {}
+        f_(x_),
+        f_begin_(x_),
+        reach_(x_),
+        solved_(rest_),
+        factor_(rest_) {}
 
   void start(double t, const Eigen::VectorXd& x) override {
     t_ = t;
@@ -65,12 +72,17 @@ class RosenbrockBackend : public OneStepBackend {
     counts_ = Counts();
     forget_switches();
     next_ = 0.0;
+    reach_.setZero();
   }
 
   Counts counts() const override {
     Counts counts = counts_;
     counts.restarts = restarts_;
     return counts;
+  }
+
+  int worst_state() const override {
+    return counts_.steps + counts_.error_test_failures == 0 ? -1 : largest(f_.array() / weight());
   }
 
  protected:
@@ -84,16 +96,21 @@ class RosenbrockBackend : public OneStepBackend {
  private:
   static double roundoff(double t) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t); }
   void evaluate_jacobian();
+  void begin_step();
   double first_step(double t_stop);
+  void factorise(double h);
+  void solve(double h, Eigen::Index stage);
   double try_step(double h);
+  Eigen::ArrayXd weight() const;
   double norm(const Eigen::VectorXd& error) const;
 
   const Tableau method_;
+  const Eigen::Index n_, positions_, rest_;
   StepControl control_;
   Counts counts_;
   double next_ = 0.0;  // step to try; 0: not known
   Eigen::MatrixXd J_, W_, u_;
-  Eigen::VectorXd trial_, f_;
+  Eigen::VectorXd trial_, f_, f_begin_, reach_, solved_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
 };
 
@@ -103,63 +120,96 @@ void RosenbrockBackend::evaluate_jacobian() {
     bridge_.ode().jacobian(t_, x_.data(), J_);
     return;
   }
-  bridge_.rate_at(t_, x_, f_);
-  Eigen::VectorXd there(x_.size());
+  Eigen::VectorXd there(n_);
   trial_ = x_;
-  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+  for (Eigen::Index i = 0; i < n_; ++i) {
     const double step = 1e-7 * std::max(std::abs(x_[i]), 1e-3);
     trial_[i] = x_[i] + step;
     bridge_.rate_at(t_, trial_, there);
-    J_.col(i) = (there - f_) / step;
+    J_.col(i) = (there - f_begin_) / step;
     trial_[i] = x_[i];
   }
 }
 
+// What every attempt at this step shares.
+void RosenbrockBackend::begin_step() {
+  bridge_.rate_at(t_, x_, f_begin_);
+  evaluate_jacobian();
+  if (options_.weight == Weight::reach) {
+    bridge_.ode().reach(x_.data(), reach_.data());
+  } else {
+    reach_ = x_.cwiseAbs();
+  }
+}
+
+Eigen::ArrayXd RosenbrockBackend::weight() const {
+  return options_.relative_tolerance * reach_.array().max(trial_.array().abs()) +
+         options_.absolute_tolerance.array();
+}
+
 double RosenbrockBackend::norm(const Eigen::VectorXd& error) const {
-  const Eigen::ArrayXd weight = options_.relative_tolerance * x_.array().abs().max(trial_.array().abs()) +
-                                options_.absolute_tolerance.array();
-  return std::sqrt((error.array() / weight).square().mean());
+  return std::sqrt((error.array() / weight()).square().mean());
 }
 
 // A step along which the rate alone changes the state by a hundredth of its weight's reach (Hairer, Norsett,
 // Wanner, Solving ODEs I, II.4, without the second look).
 double RosenbrockBackend::first_step(double t_stop) {
-  bridge_.rate_at(t_, x_, f_);
   trial_ = x_;
   const double d0 = norm(x_);
-  const double d1 = norm(f_);
+  const double d1 = norm(f_begin_);
   const double h = d0 > 1e-5 && d1 > 1e-5 ? 0.01 * d0 / d1 : 1e-6;
   return std::min(h, t_stop - t_);
 }
 
-// Leaves the new state in trial_ and returns the scaled error; infinite when a rate is not finite.
-double RosenbrockBackend::try_step(double h) {
-  W_ = -J_;
+// Positions z with z' = w leave the system by u_z = h gamma (r_z + u_w).
+void RosenbrockBackend::factorise(double h) {
+  W_ = -J_.bottomRightCorner(rest_, rest_);
+  W_.leftCols(positions_) -= h * method_.gamma * J_.bottomLeftCorner(rest_, positions_);
   W_.diagonal().array() += 1.0 / (h * method_.gamma);
   factor_.compute(W_);
+}
+
+// f_ holds the right-hand side.
+void RosenbrockBackend::solve(double h, Eigen::Index stage) {
+  const double hg = h * method_.gamma;
+  auto u = u_.col(stage);
+  solved_ = f_.tail(rest_);
+  solved_.noalias() += hg * (J_.bottomLeftCorner(rest_, positions_) * f_.head(positions_));
+  u.tail(rest_) = factor_.solve(solved_);
+  u.head(positions_) = hg * (f_.head(positions_) + u.segment(positions_, positions_));
+}
+
+// Leaves the new state in trial_ and returns the scaled error; infinite when a rate is not finite.
+double RosenbrockBackend::try_step(double h) {
+  factorise(h);
   for (int i = 0; i < kStages; ++i) {
-    trial_ = x_;
-    for (int j = 0; j < i; ++j) {
-      trial_ += method_.a(i, j) * u_.col(j);
+    if (i == 0) {
+      f_ = f_begin_;
+    } else {
+      trial_ = x_;
+      for (int j = 0; j < i; ++j) {
+        if (method_.a(i, j) != 0.0) trial_ += method_.a(i, j) * u_.col(j);
+      }
+      bridge_.rate_at(t_ + method_.alpha[i] * h, trial_, f_);
     }
-    bridge_.rate_at(t_ + method_.alpha[i] * h, trial_, f_);
     for (int j = 0; j < i; ++j) {
       f_ += method_.c(i, j) / h * u_.col(j);
     }
     if (!f_.allFinite()) {
       return std::numeric_limits<double>::infinity();
     }
-    u_.col(i) = factor_.solve(f_);
+    solve(h, i);
   }
-  trial_ = x_ + u_ * method_.m;
-  f_ = u_ * method_.error;
+  trial_ = x_;
+  trial_.noalias() += u_ * method_.m;
+  f_.noalias() = u_ * method_.error;
   return trial_.allFinite() ? norm(f_) : std::numeric_limits<double>::infinity();
 }
 
 void RosenbrockBackend::step(double t_stop) {
   const bool fixed = options_.fixed_step > 0.0;
   control_.set_stop(t_, t_stop);
-  evaluate_jacobian();
+  begin_step();
   double h = fixed ? options_.fixed_step : next_ > 0.0 ? next_ : first_step(t_stop);
   for (int trial = 0;; ++trial) {
     h = std::min(h, t_stop - t_);
@@ -178,7 +228,7 @@ void RosenbrockBackend::step(double t_stop) {
     h = next_;
     if (!(t_ + h > t_) || trial > 30) {
       const std::string cause = std::isfinite(error) ? "" : " Some rates were not finite.";
-      bridge_.fail(to_string(options_.method), t_, "no step is small enough for the error test." + cause);
+      fail("no step is small enough for the error test." + cause);
     }
   }
 }

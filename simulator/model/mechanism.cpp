@@ -43,8 +43,9 @@ Eigen::Isometry3d along_axis(const Joint& joint) {
 
 }  // namespace
 
-// Simbody holds the tree, its kinematics and its energy. The mass matrix and the bias are assembled from its
-// poses by TreeDynamics: Simbody's own operators would cost one pass over the tree for each column.
+// Simbody holds the tree, checks it and gives its energy. Poses, mass matrix and bias are TreeDynamics':
+// Simbody's own operators cost one pass over the tree for each column, and its kinematics as much as all the
+// rest here.
 struct Mechanism::Impl {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
@@ -91,18 +92,20 @@ struct Mechanism::Impl {
       }
       tree_index[child] = static_cast<int>(moving.size());
       moving.push_back(index[child]);
-      bodies.push_back(tree_body(skeleton.bodies[child], joint, on_world ? -1 : tree_index[parent],
+      bodies.push_back(tree_body(skeleton.bodies[child], joint, X_PJ, on_world ? -1 : tree_index[parent],
                                  coordinate_of_joint[j]));
     }
   }
 
-  static TreeBody tree_body(const Body& body, const Joint& joint, int parent, int coordinate) {
+  static TreeBody tree_body(const Body& body, const Joint& joint, const Eigen::Isometry3d& X_PJ, int parent,
+                            int coordinate) {
     TreeBody it;
     it.parent = parent;
     it.coordinate = coordinate;
     it.slides = joint.type == JointType::prismatic;
     it.axis = joint.X_CJ.linear() * joint.axis.normalized();
     it.hinge = joint.X_CJ.translation();
+    it.X_PB = X_PJ * joint.X_CJ.inverse();
     it.mass = body.mass;
     it.com = body.com;
     it.inertia = body.inertia;
@@ -124,12 +127,6 @@ struct Mechanism::Impl {
         break;
     }
     return SimTK::MobilizedBody::Weld(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
-  }
-
-  /// Only the matter subsystem is realised: the system's other parts (force caches) are not used here.
-  void realize_position() {
-    matter.getSubsystemGuts().realizeSubsystemTime(state);
-    matter.realizePositionKinematics(state);
   }
 
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
@@ -166,20 +163,12 @@ const TreeDynamics& Mechanism::tree() const { return *impl_->tree; }
 void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::MatrixXd& M,
                          Eigen::VectorXd& h) {
   Impl& d = *impl_;
-  if (!q.allFinite()) {  // Simbody would throw: an integrator that has gone astray wants to be told by the
-                         // rates
+  if (!q.allFinite()) {  // an integrator that has gone astray wants to be told by the rates
     M.setConstant(d.size, d.size, std::numeric_limits<double>::quiet_NaN());
     h.setConstant(d.size, std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  d.set_state(q, v);
-  d.realize_position();
-  for (std::size_t b = 0; b < d.moving.size(); ++b) {
-    const SimTK::Transform& X = d.matter.getMobilizedBody(d.moving[b]).getBodyTransform(d.state);
-    // Simbody stores the rotation's columns side by side, as Eigen does.
-    d.tree->pose(static_cast<int>(b), Eigen::Map<const Eigen::Matrix3d>(&X.R().asMat33()(0, 0)),
-                 Eigen::Map<const Eigen::Vector3d>(&X.p()[0]));
-  }
+  d.tree->place(q);
   d.tree->assemble(v, M, h);
 }
 

@@ -77,7 +77,13 @@ Eigen::VectorXd Plant::stretch_direction(const Ratio& ratio) const {
 }
 
 Plant::Line Plant::line_of(const Eigen::VectorXd& full) const {
-  return {full, S_.transpose() * full, full.dot(q0_)};
+  Line line{full, S_.transpose() * full, full.dot(q0_), {}};
+  for (int i = 0; i < nz_; ++i) {
+    if (line.reduced[i] != 0.0) {
+      line.entries.push_back({i, line.reduced[i]});
+    }
+  }
+  return line;
 }
 
 bool Plant::is_released(const Ratio& ratio) const {
@@ -162,6 +168,7 @@ void Plant::reduce(const std::vector<Lock>& locks) {
       continue;
     }
     S_(j, column) = 1.0;
+    independent_.push_back(static_cast<int>(j));
     for (std::size_t i = 0; i < pivots.size(); ++i) {
       S_(pivots[i], column) = -A(static_cast<Eigen::Index>(i), j);
     }
@@ -171,6 +178,14 @@ void Plant::reduce(const std::vector<Lock>& locks) {
     q0_[pivots[i]] = b[static_cast<Eigen::Index>(i)];
   }
   S_tree_ = S_.topRows(n_tree_);
+  S_rows_.resize(static_cast<std::size_t>(n_tree_));
+  for (int i = 0; i < n_tree_; ++i) {
+    for (int k = 0; k < nz_; ++k) {
+      if (S_tree_(i, k) != 0.0) {
+        S_rows_[static_cast<std::size_t>(i)].push_back({k, S_tree_(i, k)});
+      }
+    }
+  }
 }
 
 void Plant::place_force(const effects::ForceLaw& law, int effect, int& next_state) {
@@ -313,8 +328,7 @@ Plant::Structure Plant::make_structure() const {
 
 void Plant::check_mass_matrix() {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(nx_);
-  evaluate_rigid(x.data(), structure_, M_, h_);
-  factor_.compute(M_);
+  factor_at(x.data());
   const bool positive = factor_.info() == Eigen::Success && M_.allFinite() && M_.diagonal().minCoeff() > 0.0;
   if (!positive || factor_.rcond() < 1e-13) {
     throw InputError(
@@ -324,11 +338,29 @@ void Plant::check_mass_matrix() {
   }
 }
 
+// Joints that move, motors, pulleys.
+std::string Plant::coordinate_name(int full) const {
+  if (full >= n_tree_ + motors()) {
+    return model_.pulleys[static_cast<std::size_t>(full - n_tree_ - motors())].name;
+  }
+  if (full >= n_tree_) {
+    return model_.motors[static_cast<std::size_t>(full - n_tree_)].name;
+  }
+  int index = 0;
+  for (const Joint& joint : model_.skeleton.joints) {
+    if (joint.type != JointType::fixed && index++ == full) {
+      return joint.name;
+    }
+  }
+  return "";
+}
+
 std::vector<std::string> Plant::state_names() const {
   std::vector<std::string> names(static_cast<std::size_t>(nx_));
   for (int i = 0; i < nz_; ++i) {
-    names[static_cast<std::size_t>(i)] = "position " + std::to_string(i + 1);
-    names[static_cast<std::size_t>(nz_ + i)] = "velocity " + std::to_string(i + 1);
+    const std::string name = coordinate_name(independent_[static_cast<std::size_t>(i)]);
+    names[static_cast<std::size_t>(i)] = "position of " + name;
+    names[static_cast<std::size_t>(nz_ + i)] = "velocity of " + name;
   }
   const auto label = [&](int effect, int state) {
     if (state < 0) {
@@ -346,6 +378,11 @@ std::vector<std::string> Plant::state_names() const {
   for (const auto& chain : actuators_) {
     for (const ActuatorSlot& slot : chain) {
       label(slot.effect, slot.state);
+    }
+  }
+  for (const FootSlot& slot : feet_) {
+    for (const FootSlot::Drag& use : slot.drags) {
+      label(use.effect, use.state);
     }
   }
   return names;
@@ -385,6 +422,7 @@ void Plant::set_value(ParameterId id, double value) {
   for (const StructureSlot& slot : structures_) {
     if (slot.effect == id.effect) {
       structure_ = make_structure();
+      rigid_known_ = false;
       variants_.clear();
     }
   }

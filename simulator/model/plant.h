@@ -45,6 +45,12 @@ struct Energetics {
   double dissipated = 0.0;  ///< by all effects, W
 };
 
+/// What moves a state fastest.
+struct Stiffest {
+  std::string element;  ///< "hard_stop at bsp_left"; empty when no effect moves anything
+  double rate = 0.0;    ///< 1/s
+};
+
 /// The state is x = [z, dz/dt, hidden states], z the independent positions that the rigid ratios and locks
 /// leave: q = S z + q0 for the full coordinates q (joints, motors, pulleys). Ratios are linear with constant
 /// coefficients, so this elimination is exact and nothing drifts:
@@ -61,6 +67,7 @@ class Plant {
   int states() const { return nx_; }
   int motors() const { return static_cast<int>(model_.motors.size()); }
   int sensors() const { return static_cast<int>(model_.sensors.size()); }
+  /// "position of mLA_left", "velocity of ..." (joint, motor or pulley), "bristle of lugre at mLS".
   std::vector<std::string> state_names() const;
   /// Indices in x of the hidden states of force laws (bristles).
   std::vector<int> force_states() const;
@@ -111,6 +118,11 @@ class Plant {
   /// Full coordinate value of a named joint, coordinate or motor.
   double position_of(const std::string& name, const double* x) const;
   double velocity_of(const std::string& name, const double* x) const;
+  /// Raises each speed to the one at which its coordinate alone would hold the kinetic energy of x:
+  /// v_i = sqrt(w' M w / M_ii), w = dz/dt.
+  void raise_speeds(const double* x, double* speeds);
+  /// Of the independent coordinates, at the position that rate() was last called with.
+  const Eigen::MatrixXd& mass_matrix() const { return M_; }
   /// Generalised inertia felt along a named place at the last evaluated position.
   double inertia_of(const std::string& name);
 
@@ -137,13 +149,22 @@ class Plant {
   /// Approximate d(rate)/dx for implicit integrators: mass matrix and the effects' own slopes, no further
   /// forward dynamics.
   void stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
+  /// The effect with the largest spectral radius of the equations linearised at x when its slopes alone act
+  /// on the whole mass matrix. Of a foot: its normal law alone, and all its laws, named by the tangential
+  /// one.
+  Stiffest stiffest(const double* x, const double* command);
 
  private:
+  struct Entry {
+    int index;
+    double value;
+  };
   // A linear functional of the full coordinates, seen from the independent ones.
   struct Line {
     Eigen::VectorXd full;
     Eigen::VectorXd reduced;
     double offset = 0.0;
+    std::vector<Entry> entries;  // of `reduced`, those that are not zero: few
   };
   struct ForceSlot {
     const effects::ForceLaw* law = nullptr;
@@ -199,8 +220,10 @@ class Plant {
   Touch touch(const FootSlot& slot) const;
   void press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const;
   void add_ground(const double* x, Eigen::VectorXd& Q, double* xdot);
-  Eigen::MatrixXd foot_jacobian(const FootSlot& slot, const Touch& at) const;
+  const Eigen::MatrixXd& foot_jacobian(const FootSlot& slot, const Touch& at);
   void ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void foot_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void ground_energetics(const double* x, Energetics& e) const;
   Structure make_structure() const;
   void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
@@ -211,10 +234,16 @@ class Plant {
   const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
   void deliver_torques(const double* x, const double* command, double* xdot);
   void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
+  void rigid_at(const double* x);
+  void factor_at(const double* x);
+  double spectral_radius(const double* x);
+  std::string coordinate_name(int full) const;
   void add_forces(const double* x, Eigen::VectorXd& Q, double* xdot);
   double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
   void rigid_tangent(const double* x, const double* command);
   void effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
+  void force_tangent(const ForceSlot& slot, const double* x, const double* change,
+                     Eigen::Ref<Eigen::MatrixXd> A);
   void parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
                          ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
   void force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
@@ -228,8 +257,10 @@ class Plant {
 
   Model model_;
   std::vector<effects::Values> values_;
+  std::vector<int> independent_;  // full coordinates that z are
   int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
   Eigen::MatrixXd S_, S_tree_;
+  std::vector<std::vector<Entry>> S_rows_;  // of S_tree_
   Eigen::VectorXd q0_;
   std::vector<ForceSlot> forces_;
   std::vector<FootSlot> feet_;
@@ -244,9 +275,15 @@ class Plant {
 
   // Work space of the last evaluation.
   Eigen::VectorXd q_, v_, h_tree_, ground_, h_, Q_, torque_, acceleration_;
-  Eigen::MatrixXd M_, M_tree_, MS_;
+  Eigen::MatrixXd M_, M_tree_, SM_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd known_;  // positions and velocities that q_, v_, M_, h_ and the tree's kinematics belong to
+  bool rigid_known_ = false, factored_ = false;
   Eigen::MatrixXd rigid_A_;
+  Eigen::MatrixXd slopes_;  // d(generalised force)/dx
+  Eigen::MatrixXd foot_J_;
+  Eigen::VectorXd foot_row_, moved_x_, up_, down_;
+  std::vector<double> switch_values_;
   struct Variant {
     ParameterId id;
     double step = 0.0;

@@ -92,57 +92,97 @@ void Plant::add_ground(const double* x, Eigen::VectorXd& Q, double* xdot) {
       structure_.mechanism->tree().add_force(slot.body, at.position, at.force, ground_);
     }
   }
-  Q.noalias() += S_tree_.transpose() * ground_;
+  for (int j = 0; j < n_tree_; ++j) {
+    for (const Entry& entry : S_rows_[static_cast<std::size_t>(j)]) {
+      Q[entry.index] += entry.value * ground_[j];
+    }
+  }
 }
 
 // d(foot's velocity)/d(dz/dt), 3 x positions.
-Eigen::MatrixXd Plant::foot_jacobian(const FootSlot& slot, const Touch& at) const {
-  Eigen::MatrixXd J(3, nz_);
+const Eigen::MatrixXd& Plant::foot_jacobian(const FootSlot& slot, const Touch& at) {
+  foot_J_.setZero(3, nz_);
   for (int k = 0; k < 3; ++k) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(n_tree_);
-    structure_.mechanism->tree().add_force(slot.body, at.position, Eigen::Vector3d::Unit(k), row);
-    J.row(k) = (S_tree_.transpose() * row).transpose();
+    foot_row_.setZero(n_tree_);
+    structure_.mechanism->tree().add_force(slot.body, at.position, Eigen::Vector3d::Unit(k), foot_row_);
+    for (int j = 0; j < n_tree_; ++j) {
+      for (const Entry& entry : S_rows_[static_cast<std::size_t>(j)]) {
+        foot_J_(k, entry.index) += entry.value * foot_row_[j];
+      }
+    }
   }
-  return J;
+  return foot_J_;
 }
 
 // Adds the ground's own slopes: differences of the laws, no dynamics, the foot's place on the link held.
+// Forces go to slopes_, rates of bristles to A. Out of the ground bristles straighten, and nothing else.
+// A writable view is passed by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Plant::ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
-  Eigen::VectorXd state = Eigen::Map<const Eigen::VectorXd>(x, nx_);
-  Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
-  Eigen::VectorXd down = up;
+  if (feet_.empty()) {
+    return;
+  }
+  moved_x_ = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  up_.setZero(nx_);
+  down_.setZero(nx_);
   for (const FootSlot& slot : feet_) {
     const Touch at = touch(slot);
-    const Eigen::MatrixXd J = foot_jacobian(slot, at);
-    const Eigen::MatrixXd push = factor_.solve(J.transpose());
-    // One input of the laws is moved to either side; its slopes go to the columns that the input depends on.
-    const auto slope = [&](const auto& move, double step) {
+    foot_jacobian(slot, at);
+    if (at.depth > 0.0) {
+      foot_tangent(slot, at, moved_x_.data(), A);
+    }
+    bristle_tangent(slot, at, moved_x_.data(), A);
+  }
+}
+
+// By depth and by the velocity's three parts.
+void Plant::foot_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+  for (int k = 0; k < 4; ++k) {
+    const bool by_depth = k == 3;
+    const double step = by_depth ? kDepthStep : kSpeedStep;
+    Touch plus = at;
+    Touch minus = at;
+    (by_depth ? plus.depth : plus.velocity[k]) += step;
+    (by_depth ? minus.depth : minus.velocity[k]) -= step;
+    press(slot, x, plus, up_.data());
+    press(slot, x, minus, down_.data());
+    const double per = (by_depth ? -0.5 : 0.5) / step;  // depth falls where the foot rises
+    const Eigen::Vector3d force = per * (plus.force - minus.force);
+    const Eigen::Index first = by_depth ? 0 : nz_;
+    const Eigen::Index row = by_depth ? 2 : k;
+    for (Eigen::Index i = 0; i < nz_; ++i) {
+      const double share = foot_J_(row, i);
+      if (share == 0.0) {
+        continue;
+      }
+      slopes_.col(first + i).noalias() += foot_J_.transpose() * (share * force);
+      for (const FootSlot::Drag& use : slot.drags) {
+        for (int s = use.state; s >= 0 && s < use.state + use.law->state_count(); ++s) {
+          A(s, first + i) += share * per * (up_[s] - down_[s]);
+        }
+      }
+    }
+  }
+}
+
+void Plant::bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+  for (const FootSlot::Drag& use : slot.drags) {
+    for (int k = use.state; k >= 0 && k < use.state + use.law->state_count(); ++k) {
+      const double here = x[k];
+      const double step = 1e-7 * (1.0 + std::abs(here));
       Touch plus = at;
       Touch minus = at;
-      up.setZero();
-      down.setZero();
-      move(plus, step);
-      press(slot, state.data(), plus, up.data());
-      move(plus, 0.0);
-      move(minus, -step);
-      press(slot, state.data(), minus, down.data());
-      move(minus, 0.0);
-      Eigen::VectorXd column = (up - down) / (2.0 * step);
-      column.segment(nz_, nz_) = push * ((plus.force - minus.force) / (2.0 * step));
-      return column;
-    };
-    if (at.depth > 0.0) {
-      A.leftCols(nz_) -= slope([](Touch& touch, double step) { touch.depth += step; }, kDepthStep) * J.row(2);
-    }
-    for (int k = 0; k < 3; ++k) {
-      A.middleCols(nz_, nz_) +=
-          slope([k](Touch& touch, double step) { touch.velocity[k] += step; }, kSpeedStep) * J.row(k);
-    }
-    for (const FootSlot::Drag& use : slot.drags) {
-      for (int k = use.state; k >= 0 && k < use.state + use.law->state_count(); ++k) {
-        const double here = state[k];
-        A.col(k) +=
-            slope([&](Touch&, double step) { state[k] = here + step; }, 1e-7 * (1.0 + std::abs(here)));
+      x[k] = here + step;
+      press(slot, x, plus, up_.data());
+      x[k] = here - step;
+      press(slot, x, minus, down_.data());
+      x[k] = here;
+      const Eigen::Vector3d force = (plus.force - minus.force) / (2.0 * step);
+      slopes_.col(k).noalias() += foot_J_.transpose() * force;
+      for (const FootSlot::Drag& other : slot.drags) {
+        for (int s = other.state; s >= 0 && s < other.state + other.law->state_count(); ++s) {
+          A(s, k) += (up_[s] - down_[s]) / (2.0 * step);
+        }
       }
     }
   }
@@ -163,7 +203,7 @@ void Plant::ground_energetics(const double* x, Energetics& e) const {
 }
 
 std::vector<Touch> Plant::touches(const double* x) {
-  evaluate_rigid(x, structure_, M_, h_);
+  rigid_at(x);
   std::vector<Touch> all(model_.feet.size());
   for (const FootSlot& slot : feet_) {
     Touch& at = all[static_cast<std::size_t>(slot.foot)];

@@ -14,9 +14,9 @@ using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's state
 effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
   double position = slot.line.offset;
   double velocity = 0.0;
-  for (int i = 0; i < nz_; ++i) {
-    position += slot.line.reduced[i] * x[i];
-    velocity += slot.line.reduced[i] * x[nz_ + i];
+  for (const Entry& entry : slot.line.entries) {
+    position += entry.value * x[entry.index];
+    velocity += entry.value * x[nz_ + entry.index];
   }
   return {position, velocity, slot.motor < 0 ? 0.0 : torque_[slot.motor]};
 }
@@ -67,22 +67,59 @@ void Plant::deliver_torques(const double* x, const double* command, double* xdot
   }
 }
 
+// S has few entries that are not zero: S' M S by columns of M.
 void Plant::evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h) {
-  const Vector z(x, nz_);
-  const Vector w(x + nz_, nz_);
-  q_.noalias() = S_tree_ * z;
-  q_ += q0_.head(n_tree_);
-  v_.noalias() = S_tree_ * w;
+  rigid_known_ = false;
+  q_ = q0_.head(n_tree_);
+  v_.setZero(n_tree_);
+  for (int j = 0; j < n_tree_; ++j) {
+    for (const Entry& entry : S_rows_[static_cast<std::size_t>(j)]) {
+      q_[j] += entry.value * x[entry.index];
+      v_[j] += entry.value * x[nz_ + entry.index];
+    }
+  }
   structure.mechanism->evaluate(q_, v_, M_tree_, h_tree_);
-  MS_.noalias() = M_tree_.lazyProduct(S_tree_);
+  SM_.setZero(nz_, n_tree_);
   M = structure.extra_reduced;
-  M.noalias() += S_tree_.transpose().lazyProduct(MS_);
-  h.noalias() = S_tree_.transpose() * h_tree_;
+  h.setZero(nz_);
+  for (int j = 0; j < n_tree_; ++j) {
+    for (int i = 0; i < n_tree_; ++i) {
+      for (const Entry& entry : S_rows_[static_cast<std::size_t>(i)]) {
+        SM_(entry.index, j) += entry.value * M_tree_(i, j);
+      }
+    }
+    for (const Entry& entry : S_rows_[static_cast<std::size_t>(j)]) {
+      M.col(entry.index) += entry.value * SM_.col(j);
+      h[entry.index] += entry.value * h_tree_[j];
+    }
+  }
+}
+
+// Jacobians, switches and the first stage of a step ask for the same positions and velocities one after the
+// other.
+void Plant::rigid_at(const double* x) {
+  if (rigid_known_ && std::equal(x, x + 2 * nz_, known_.data())) {
+    return;
+  }
+  evaluate_rigid(x, structure_, M_, h_);
+  known_ = Vector(x, 2 * nz_);
+  rigid_known_ = true;
+  factored_ = false;
+}
+
+void Plant::factor_at(const double* x) {
+  rigid_at(x);
+  if (!factored_) {
+    factor_.compute(M_);
+    factored_ = true;
+  }
 }
 
 void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
   for (int m = 0; m < motors(); ++m) {
-    Q += motor_lines_[static_cast<std::size_t>(m)].reduced * torque_[m];
+    for (const Entry& entry : motor_lines_[static_cast<std::size_t>(m)].entries) {
+      Q[entry.index] += entry.value * torque_[m];
+    }
   }
   for (const ForceSlot& slot : forces_) {
     if (!slot.active) {
@@ -91,7 +128,10 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
     const effects::Motion at = motion(slot, x);
     const double* state = slot.state >= 0 ? x + slot.state : nullptr;
     const double* p = values(slot.effect);
-    Q += slot.line.reduced * slot.law->force(at, state, p);
+    const double force = slot.law->force(at, state, p);
+    for (const Entry& entry : slot.line.entries) {
+      Q[entry.index] += entry.value * force;
+    }
     if (slot.state >= 0 && xdot != nullptr) {
       slot.law->state_rate(at, state, p, xdot + slot.state);
     }
@@ -101,14 +141,25 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
 
 void Plant::rate(const double* x, const double* command, double* xdot) {
   deliver_torques(x, command, xdot);
-  evaluate_rigid(x, structure_, M_, h_);
-  factor_.compute(M_);
+  factor_at(x);
   Q_ = -h_;
   add_forces(x, Q_, xdot);
   acceleration_ = factor_.solve(Q_);
   for (int i = 0; i < nz_; ++i) {
     xdot[i] = x[nz_ + i];
     xdot[nz_ + i] = acceleration_[i];
+  }
+}
+
+void Plant::raise_speeds(const double* x, double* speeds) {
+  rigid_at(x);
+  const Vector w(x + nz_, nz_);
+  double twice_energy = 0.0;
+  for (int i = 0; i < nz_; ++i) {
+    twice_energy += w[i] * M_.col(i).dot(w);
+  }
+  for (int i = 0; i < nz_; ++i) {
+    speeds[i] = std::max(speeds[i], std::sqrt(twice_energy / M_(i, i)));
   }
 }
 
@@ -177,12 +228,13 @@ void Plant::settle(const double* command, double* x) const {
 }
 
 void Plant::switches(const double* x, double* g) {
-  std::vector<double> all;
+  std::vector<double>& all = switch_values_;
+  all.clear();
   for (const ForceSlot& slot : forces_) {
     slot.law->switches(motion(slot, x), values(slot.effect), all);
   }
   if (!feet_.empty()) {
-    evaluate_rigid(x, structure_, M_, h_);
+    rigid_at(x);
   }
   for (const FootSlot& slot : feet_) {
     all.push_back(touch(slot).depth);
@@ -192,7 +244,7 @@ void Plant::switches(const double* x, double* g) {
 
 Energetics Plant::energetics(const double* x, const double* command) {
   deliver_torques(x, command, nullptr);
-  evaluate_rigid(x, structure_, M_, h_);
+  rigid_at(x);
   Energetics e = powers(x);
   const Vector w(x + nz_, nz_);
   e.stored += structure_.mechanism->energy(q_, v_) + 0.5 * w.dot(structure_.extra_reduced * w);

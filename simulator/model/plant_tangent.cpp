@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
 constexpr double kVelocityStep = 1e-4;
-constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
+using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
+constexpr int kPartsOfTurn = 6;                                 // of a sample in which a place turns round
 
 }  // namespace
 
@@ -17,8 +18,7 @@ constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 void Plant::rigid_tangent(const double* x, const double* command) {
   rigid_A_ = Eigen::MatrixXd::Zero(nz_, 2 * nz_);
   deliver_torques(x, command, nullptr);
-  evaluate_rigid(x, structure_, M_, h_);
-  factor_.compute(M_);
+  factor_at(x);
   Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
   add_forces(x, Q, nullptr);
   const Eigen::VectorXd a0 = factor_.solve(Q - h_);
@@ -37,68 +37,89 @@ void Plant::rigid_tangent(const double* x, const double* command) {
 // Half of what a place's position and velocity change by over a sample.
 effects::Motion Plant::half_change(const ForceSlot& slot, const double* change) const {
   effects::Motion half;
-  for (int i = 0; change != nullptr && i < nz_; ++i) {
-    half.position += 0.5 * slot.line.reduced[i] * change[i];
-    half.velocity += 0.5 * slot.line.reduced[i] * change[nz_ + i];
+  if (change == nullptr) {
+    return half;
+  }
+  for (const Entry& entry : slot.line.entries) {
+    half.position += 0.5 * entry.value * change[entry.index];
+    half.velocity += 0.5 * entry.value * change[nz_ + entry.index];
   }
   return half;
 }
 
-// Adds the effects' own slopes: scalar differences of each law, no dynamics. A difference as wide as the
-// change over a sample is the mean slope on the way, also of a law that jumps there.
+// Adds the effects' own slopes: scalar differences of each law, no dynamics.
 void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
+  slopes_.setZero(nz_, nx_);
   for (const ForceSlot& slot : forces_) {
-    if (!slot.active) {
-      continue;
-    }
-    const double* p = values(slot.effect);
-    const effects::Motion at = motion(slot, x);
-    const Eigen::VectorXd push = factor_.solve(slot.line.reduced);
-    const int states = slot.law->state_count();
-    const double* state = slot.state >= 0 ? x + slot.state : nullptr;
-    Eigen::VectorXd s = Eigen::VectorXd::Zero(std::max(states, 1));
-    Eigen::VectorXd up = s;
-    Eigen::VectorXd down = s;
-    for (int k = 0; k < states; ++k) {
-      s[k] = state[k];
-    }
-    const auto add = [&](Eigen::Ref<Eigen::MatrixXd> block, const effects::Motion& plus,
-                         const effects::Motion& minus, double width) {
-      const double slope = (slot.law->force(plus, s.data(), p) - slot.law->force(minus, s.data(), p)) / width;
-      block.middleRows(nz_, nz_) += push * (slope * slot.line.reduced.transpose());
-      if (states > 0) {
-        slot.law->state_rate(plus, s.data(), p, up.data());
-        slot.law->state_rate(minus, s.data(), p, down.data());
-        block.middleRows(slot.state, states) +=
-            ((up - down) / width).head(states) * slot.line.reduced.transpose();
-      }
-    };
-    const effects::Motion half = half_change(slot, change);
-    const double dq = std::max(1e-6 * (1.0 + std::abs(at.position)), std::abs(half.position));
-    const double dv = std::max(1e-6 * (1.0 + std::abs(at.velocity)), std::abs(half.velocity));
-    add(A.leftCols(nz_), {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load},
-        2.0 * dq);
-    add(A.middleCols(nz_, nz_), {at.position, at.velocity + dv, at.load},
-        {at.position, at.velocity - dv, at.load}, 2.0 * dv);
-    for (int k = 0; k < states; ++k) {
-      const double ds = 1e-7 * (1.0 + std::abs(s[k]));
-      const double middle = s[k];
-      s[k] = middle + ds;
-      const double f_up = slot.law->force(at, s.data(), p);
-      slot.law->state_rate(at, s.data(), p, up.data());
-      s[k] = middle - ds;
-      const double f_down = slot.law->force(at, s.data(), p);
-      slot.law->state_rate(at, s.data(), p, down.data());
-      s[k] = middle;
-      A.col(slot.state + k).segment(nz_, nz_) += push * ((f_up - f_down) / (2.0 * ds));
-      A.col(slot.state + k).segment(slot.state, states) += ((up - down) / (2.0 * ds)).head(states);
+    if (slot.active) {
+      force_tangent(slot, x, change, A);
     }
   }
   ground_tangent(x, A);
+  factor_.solveInPlace(slopes_);
+  A.middleRows(nz_, nz_) += slopes_;
+}
+
+// A difference as wide as the change over a sample is the mean slope on the way, also of a law that jumps
+// there. The force's slopes go to slopes_, those of the states' rates to A.
+void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* change,
+                          Eigen::Ref<Eigen::MatrixXd> A) {
+  const double* p = values(slot.effect);
+  const effects::Motion at = motion(slot, x);
+  const int states = slot.state >= 0 ? slot.law->state_count() : 0;
+  Few s = Few::Zero(std::max(states, 1));
+  Few up = s;
+  Few down = s;
+  for (int k = 0; k < states; ++k) {
+    s[k] = x[slot.state + k];
+  }
+  const auto add = [&](int first, const effects::Motion& plus, const effects::Motion& minus, double width) {
+    const double slope = (slot.law->force(plus, s.data(), p) - slot.law->force(minus, s.data(), p)) / width;
+    if (states > 0) {
+      slot.law->state_rate(plus, s.data(), p, up.data());
+      slot.law->state_rate(minus, s.data(), p, down.data());
+    }
+    for (const Entry& column : slot.line.entries) {
+      for (const Entry& row : slot.line.entries) {
+        slopes_(row.index, first + column.index) += row.value * slope * column.value;
+      }
+      for (int k = 0; k < states; ++k) {
+        A(slot.state + k, first + column.index) += (up[k] - down[k]) / width * column.value;
+      }
+    }
+  };
+  const effects::Motion half = half_change(slot, change);
+  const double dq = std::max(1e-6 * (1.0 + std::abs(at.position)), std::abs(half.position));
+  const double dv = std::max(1e-6 * (1.0 + std::abs(at.velocity)), std::abs(half.velocity));
+  add(0, {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load}, 2.0 * dq);
+  add(nz_, {at.position, at.velocity + dv, at.load}, {at.position, at.velocity - dv, at.load}, 2.0 * dv);
+  for (int k = 0; k < states; ++k) {
+    const double ds = 1e-7 * (1.0 + std::abs(s[k]));
+    const double middle = s[k];
+    s[k] = middle + ds;
+    const double f_up = slot.law->force(at, s.data(), p);
+    slot.law->state_rate(at, s.data(), p, up.data());
+    s[k] = middle - ds;
+    const double f_down = slot.law->force(at, s.data(), p);
+    slot.law->state_rate(at, s.data(), p, down.data());
+    s[k] = middle;
+    for (const Entry& row : slot.line.entries) {
+      slopes_(row.index, slot.state + k) += row.value * ((f_up - f_down) / (2.0 * ds));
+    }
+    for (int r = 0; r < states; ++r) {
+      A(slot.state + r, slot.state + k) += (up[r] - down[r]) / (2.0 * ds);
+    }
+  }
 }
 
 // Hidden states of the actuators act through the delivered torque.
 void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+  const auto has_states = [](const std::vector<ActuatorSlot>& chain) {
+    return std::any_of(chain.begin(), chain.end(), [](const ActuatorSlot& slot) { return slot.state >= 0; });
+  };
+  if (std::none_of(actuators_.begin(), actuators_.end(), has_states)) {
+    return;
+  }
   Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd down = Eigen::VectorXd::Zero(nx_);
@@ -125,8 +146,7 @@ void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<
 
 void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
   deliver_torques(x, command, nullptr);
-  evaluate_rigid(x, structure_, M_, h_);
-  factor_.compute(M_);
+  factor_at(x);
   A.setZero();
   A.block(0, nz_, nz_, nz_).setIdentity();
   effect_tangent(x, nullptr, A);

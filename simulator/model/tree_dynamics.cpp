@@ -1,5 +1,6 @@
 #include "simulator/model/tree_dynamics.h"
 
+#include <cmath>
 #include <utility>
 
 namespace plumbline::model {
@@ -12,18 +13,70 @@ TreeDynamics::TreeDynamics(std::vector<TreeBody> bodies, int coordinates, const 
   axis_.assign(n, Vector6::Zero());
   velocity_ = acceleration_ = force_ = axis_;
   composite_.resize(n);
+  for (const TreeBody& body : bodies_) {
+    turns_.push_back(turn_of(body));
+  }
 }
 
-void TreeDynamics::pose(int body, const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& p_WB) {
-  const auto b = static_cast<std::size_t>(body);
+TreeDynamics::Turn TreeDynamics::turn_of(const TreeBody& body) {
+  Turn turn;
+  turn.at_zero = body.X_PB.linear();
+  turn.sine.setZero();
+  turn.versine.setZero();
+  turn.slide.setZero();
+  turn.origin = body.X_PB * body.hinge;
+  if (body.coordinate >= 0 && body.slides) {
+    turn.slide = turn.at_zero * body.axis;
+  } else if (body.coordinate >= 0) {
+    Eigen::Matrix3d across;
+    across << 0.0, -body.axis.z(), body.axis.y(), body.axis.z(), 0.0, -body.axis.x(), -body.axis.y(),
+        body.axis.x(), 0.0;
+    turn.sine = turn.at_zero * across;
+    turn.versine = turn.sine * across;
+  }
+  return turn;
+}
+
+void TreeDynamics::place(const Eigen::VectorXd& q) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    pose(b, q);
+    weigh(b);
+  }
+}
+
+void TreeDynamics::pose(std::size_t b, const Eigen::VectorXd& q) {
   const TreeBody& it = bodies_[b];
-  R_[b] = R_WB;
-  p_[b] = p_WB;
-  const Eigen::Vector3d com = p_WB + R_WB * it.com;
+  const Turn& turn = turns_[b];
+  Eigen::Matrix3d R_PB = turn.at_zero;
+  Eigen::Vector3d p_PB = turn.origin;
+  if (it.coordinate >= 0 && it.slides) {
+    p_PB += q[it.coordinate] * turn.slide;
+  } else if (it.coordinate >= 0) {
+    R_PB += std::sin(q[it.coordinate]) * turn.sine + (1.0 - std::cos(q[it.coordinate])) * turn.versine;
+  }
+  p_PB.noalias() -= R_PB * it.hinge;
+  if (it.parent < 0) {
+    R_[b] = R_PB;
+    p_[b] = p_PB;
+    return;
+  }
+  const auto parent = static_cast<std::size_t>(it.parent);
+  R_[b].noalias() = R_[parent] * R_PB;
+  p_[b] = p_[parent];
+  p_[b].noalias() += R_[parent] * p_PB;
+}
+
+// Inertia and joint axis in the world's axes.
+void TreeDynamics::weigh(std::size_t b) {
+  const TreeBody& it = bodies_[b];
+  const Eigen::Matrix3d& R_WB = R_[b];
+  const Eigen::Vector3d com = p_[b] + R_WB * it.com;
   composite_[b].mass = it.mass;
   composite_[b].moment = it.mass * com;
-  composite_[b].rotation.noalias() = R_WB * it.inertia * R_WB.transpose();
-  composite_[b].rotation -= it.mass * com * com.transpose();
+  Eigen::Matrix3d turned;
+  turned.noalias() = R_WB * it.inertia;
+  composite_[b].rotation.noalias() = turned * R_WB.transpose();
+  composite_[b].rotation.noalias() -= (it.mass * com) * com.transpose();
   composite_[b].rotation.diagonal().array() += it.mass * com.squaredNorm();
   if (it.coordinate < 0) {
     return;
@@ -32,7 +85,7 @@ void TreeDynamics::pose(int body, const Eigen::Matrix3d& R_WB, const Eigen::Vect
   if (it.slides) {
     axis_[b] << Eigen::Vector3d::Zero(), axis;
   } else {
-    axis_[b] << axis, (p_WB + R_WB * it.hinge).cross(axis);
+    axis_[b] << axis, (p_[b] + R_WB * it.hinge).cross(axis);
   }
 }
 

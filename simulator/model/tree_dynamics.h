@@ -14,6 +14,7 @@ struct TreeBody {
   bool slides = false;      ///< prismatic; else revolute
   Eigen::Vector3d axis;     ///< unit vector of the joint, in the body's frame
   Eigen::Vector3d hinge;    ///< a point on the axis, in the body's frame, m
+  Eigen::Isometry3d X_PB;   ///< pose in the parent's (or the world's) frame with the joint at zero
   double mass = 0.0;        ///< kg
   Eigen::Vector3d com;      ///< in the body's frame, m
   Eigen::Matrix3d inertia;  ///< about the centre of mass, in the body's frame, kg m^2
@@ -22,15 +23,16 @@ struct TreeBody {
 /// M(q) dv/dt + h(q, v) = Q by the composite rigid body and the recursive Newton-Euler methods, with all
 /// spatial vectors in world axes about the world's origin, where composite inertias are plain sums.
 /// Source: R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, tables 5.1 and 6.2.
-/// Order of use: pose() of every body, then assemble(); stations afterwards.
+/// Poses by Rodrigues' formula, R(q) = R(0) (I + sin q [a] + (1 - cos q) [a]^2) for a turn by q about axis a.
+/// Order of use: place(), then assemble(); stations afterwards. Nothing is allocated after the first use.
 class TreeDynamics {
  public:
   TreeDynamics(std::vector<TreeBody> bodies, int coordinates, const Eigen::Vector3d& gravity);
 
   const std::vector<TreeBody>& bodies() const { return bodies_; }
 
-  /// Pose of a body in the world.
-  void pose(int body, const Eigen::Matrix3d& R_WB, const Eigen::Vector3d& p_WB);
+  /// Poses of all bodies at the joints' positions q.
+  void place(const Eigen::VectorXd& q);
 
   /// M (symmetric, coordinates x coordinates) and h (gravity, Coriolis and centrifugal terms) for rates v.
   void assemble(const Eigen::VectorXd& v, Eigen::MatrixXd& M, Eigen::VectorXd& h);
@@ -51,10 +53,20 @@ class TreeDynamics {
     Eigen::Vector3d moment;    // mass times position of the centre of mass
     Eigen::Matrix3d rotation;  // about the world's origin
   };
+  /// A body's turn in its parent's frame: R = at_zero + sin(q) sine + (1 - cos(q)) versine.
+  struct Turn {
+    Eigen::Matrix3d at_zero, sine, versine;
+    Eigen::Vector3d origin;  // of the joint in the parent's frame, less what slides
+    Eigen::Vector3d slide;   // per metre, in the parent's frame
+  };
+  static Turn turn_of(const TreeBody& body);
   static Vector6 times(const Inertia& I, const Vector6& a);
+  void pose(std::size_t body, const Eigen::VectorXd& q);
+  void weigh(std::size_t body);
   void move(std::size_t body, const Eigen::VectorXd& v);
 
   std::vector<TreeBody> bodies_;
+  std::vector<Turn> turns_;
   int size_;
   Eigen::Vector3d gravity_;
   std::vector<Eigen::Matrix3d> R_;

@@ -73,6 +73,20 @@ TEST(HopRunTest, WithoutTorqueItFallsAndSaysHow) {
   EXPECT_THAT(run.end, testing::AnyOf(testing::HasSubstr("fell"), testing::HasSubstr("stays in phase")));
 }
 
+TEST(HopRunTest, AnIntegratorThatGivesUpIsQuotedAndTheTraceKept) {
+  HopOptions options;
+  options.trace = true;
+  options.integrator.max_steps = 40;  // enough in the air, too few at touchdown
+  options.integrator.relative_tolerance = 1e-7;
+  const HopRun run = hop(mabel("mabel_planar.yaml"), controller(), {}, options);
+  EXPECT_TRUE(run.fell);
+  EXPECT_THAT(run.end, testing::HasSubstr("rosenbrock failed after t = "));
+  EXPECT_THAT(run.end, testing::ContainsRegex("Largest local error: (position|velocity|bristle)"));
+  EXPECT_THAT(run.end, testing::ContainsRegex("Stiffest: [a-z_]+ at [a-z_]+ .alone it is as fast as"));
+  EXPECT_GT(run.time, 0.0);
+  EXPECT_EQ(run.trace.rows(), std::lround(run.time / 1e-3) + 1);  // each sample until then
+}
+
 TEST(HopRunTest, AModelWithoutFeetIsRefused) {
   model::Model model = mabel("mabel_planar.yaml");
   model.feet.clear();

@@ -51,6 +51,7 @@ std::string fall(const HipWatch& watch, const Eigen::VectorXd& y, const controll
 
 HopOptions::HopOptions() {
   integrator.method = integrate::Method::rosenbrock;
+  integrator.weight = integrate::Weight::reach;
   integrator.relative_tolerance = 1e-5;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-7);
   integrator.max_steps = 2000;  // in a sample; more is no progress
@@ -102,6 +103,9 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
   } catch (const std::runtime_error& error) {
     run.fell = true;
     run.end = error.what();
+    if (!run.end.empty() && run.end.back() == '.') {
+      run.end.pop_back();  // sentences go on behind it
+    }
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.summary = integrator.summary();
