@@ -27,6 +27,9 @@ struct PredictOptions {
   double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
   /// Integrator steps for each sample, mean over a window; a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
+  /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any encoder's
+  /// count. A stiff ground wants rosenbrock.
+  integrate::Method method = integrate::Method::explicit_rk;
   int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
