@@ -13,6 +13,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kHandStep = 1e-3;  // of the balanced coordinate, for the readings' slope
+constexpr double kSettled = 1e-5;  // step in units of the parameters; equilibria are exact to about 1e-8
 constexpr double kWeak = 0.5;
 constexpr double kStrong = 0.95;
 
@@ -147,7 +148,7 @@ Eigen::VectorXd solve(PostureProblem& problem, const std::vector<FreeParameter>&
     const Eigen::VectorXd step = H.ldlt().solve(sizes.cwiseProduct(normal.g));
     const double longest = step.cwiseAbs().maxCoeff();
     theta += sizes.cwiseProduct(step) * std::min(1.0, 0.7 / std::max(longest, 1e-300));
-    if (longest < 1e-7) {
+    if (longest < kSettled) {
       *converged = true;
       break;
     }

@@ -62,7 +62,10 @@ Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters
   const std::vector<int> windows = pool.data().windows_of(Role::train);
   fitted.numbers.deviations =
       parameter_deviations(pool, windows, parameters, fitted.estimate, &fitted.numbers.correlation);
-  fitted.numbers.windows = static_cast<int>(windows.size());
+  // Each known unknown brings a datum of its own, so that it does not use up a window.
+  const auto known = std::count_if(parameters.begin(), parameters.end(),
+                                   [](const FreeParameter& one) { return std::isfinite(one.deviation); });
+  fitted.numbers.windows = static_cast<int>(windows.size()) + static_cast<int>(known);
   return fitted;
 }
 
@@ -103,7 +106,7 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   result.correlations = strong_correlations(H, names, kStrong);
   result.before = fitted.given.scores.train;
   result.after = fitted.estimate.scores.train;
-  result.windows = fitted.numbers.windows;
+  result.windows = static_cast<int>(data.windows.size());
   result.converged = fitted.estimate.converged;
   return result;
 }
