@@ -23,8 +23,13 @@ void add_linked(const LinkedModel& linked, const std::string& unknown, const std
       continue;
     }
     if (list.size() > before) {
-      throw InputError(link.place, "a second parameter of \"" + unknown + "\"",
-                       "one parameter for each unknown that a step moves");
+      const Link& first = list.back().link;
+      if (link.times != first.times || link.plus != first.plus || link.power != first.power) {
+        throw InputError(link.place, "a second parameter of \"" + unknown + "\" that differs from the first",
+                         "equal `times`, `plus` and `power` for parameters that a step moves together");
+      }
+      list.back().parameter.also.push_back(labelled(all, link.label).id);
+      continue;
     }
     LinkedParameter one{labelled(all, link.label), link, known == nullptr};
     if (known != nullptr) {

@@ -19,7 +19,7 @@ struct LinkedParameter {
 };
 
 /// The step's free unknowns, then the known ones that are uncertain. What is known enters as mean and deviation.
-/// Throws InputError when a free unknown is linked more than once: the fit has no ties.
+/// Parameters of one unknown move together; throws InputError when their links differ.
 std::vector<LinkedParameter> linked_parameters(const LinkedModel& linked, const Step& step,
                                                const KnowledgeMap& knowledge);
 

@@ -71,7 +71,7 @@ class PostureProblem {
  private:
   void set(model::Plant& plant, const Eigen::VectorXd& theta) const {
     for (std::size_t p = 0; p < parameters_.size(); ++p) {
-      plant.set_value(parameters_[p].id, theta[static_cast<Eigen::Index>(p)]);
+      parameters_[p].set(plant, theta[static_cast<Eigen::Index>(p)]);
     }
   }
 
