@@ -81,8 +81,6 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   predict.window = step.window;
   if (!model.feet.empty()) {
     predict.method = integrate::Method::rosenbrock;  // the ground is stiff
-    predict.relative_tolerance = 1e-7;               // for differences
-    predict.differences = true;
   }
   Data data(trials, predict);
   data.stop = options.stop;
