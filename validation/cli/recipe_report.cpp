@@ -72,16 +72,37 @@ std::vector<std::string> row(const Unknown& unknown, const Finding& finding, con
           verdict_text(unknown, finding, truth)};
 }
 
-void print_step(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
-                double confidence) {
-  fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source, step.carried ? "" : "; for comparison");
+/// What the data could tell: nothing is recovered, and the values are the model's own.
+std::vector<std::string> information_row(const Unknown& unknown, const Finding& finding) {
+  const double share = finding.deviation / std::abs(finding.value);
+  return {unknown.name, unknown.unit, fmt::format("{:.5g}", finding.value),
+          finding.seen ? fmt::format("{:.2g}", finding.deviation) : "inf",
+          finding.seen ? fmt::format("{:.2g} %", 100.0 * share) : "not seen"};
+}
+
+void print_findings(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
+                    double confidence) {
+  const bool information = step.method == "information";
   std::vector<std::vector<std::string>> rows;
   for (const Finding& finding : result.findings) {
-    rows.push_back(row(recipe.unknown(finding.unknown), finding, truth));
+    const Unknown& unknown = recipe.unknown(finding.unknown);
+    rows.push_back(information ? information_row(unknown, finding) : row(unknown, finding, truth));
   }
-  print_table({"unknown", "unit", "true", "recovered", fmt::format("{:g} % interval", 100.0 * confidence), "error",
-               "target", "verdict"},
-              rows);
+  if (information) {
+    print_table({"unknown", "unit", "value (of the model)", "standard deviation", "as a share"}, rows);
+  } else {
+    print_table({"unknown", "unit", "true", "recovered", fmt::format("{:g} % interval", 100.0 * confidence), "error",
+                 "target", "verdict"},
+                rows);
+  }
+}
+
+void print_step(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
+                double confidence) {
+  fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source, step.method == "information" ? "; what the data could tell, nothing recovered"
+             : step.carried               ? ""
+                                          : "; for comparison");
+  print_findings(recipe, step, result, truth, confidence);
   for (const validation::StrongCorrelation& one : result.correlations) {
     fmt::print("  correlated {:+.3f}: {} and {}\n", one.value, one.one, one.other);
   }
@@ -94,7 +115,7 @@ void print_step(const Recipe& recipe, const Step& step, const StepResult& result
   }
   if (result.after > 0.0) {
     fmt::print("  error in units of the floor: {:.3f} before, {:.3f} after; {} {}; {:.1f} s{}\n", result.before,
-               result.after, result.windows, step.method == "window_fit" ? "windows" : "postures", result.seconds,
+               result.after, result.windows, step.method == "posture_fit" ? "postures" : "windows", result.seconds,
                result.converged ? "" : "; not settled");
   }
   fmt::print("\n");

@@ -82,16 +82,16 @@ struct Equation22Method {
   std::string stiffness, preload;   ///< unknowns
 };
 
-/// The hopping controller on the robot in place of recorded commands.
+/// The hopping controller on the robot in place of recorded commands: short runs from drawn starts.
 struct HopsMethod {
-  std::string controller;  ///< file
-  double drop = 0.05, speed = -0.3;
-  double from = 0.0, to = 0.0;  ///< the stretch of the run that is used, s
+  std::string controller;       ///< file
+  int starts = 1;               ///< runs, one trial each
+  double from = 0.0, to = 0.0;  ///< the stretch of each run that is used, s
 };
 
 struct Step {
   std::string name, title, source;
-  std::string method;  ///< window_fit, posture_fit, arx, equation_14, equation_22
+  std::string method;  ///< window_fit, information, posture_fit, arx, equation_14, equation_22
   std::string model;   ///< name of a linked model; empty for equation_14
   std::string robot;   ///< the linked model that plays the robot in twins
   std::vector<std::string> experiments, trials;

@@ -47,7 +47,7 @@ StepData measure(const Recipe& recipe, const Step& step, std::size_t index, cons
 
 StepResult carry_out(const Recipe& recipe, const Step& step, const StepData& data, const KnowledgeMap& knowledge,
                      const MethodOptions& options) {
-  if (step.method == "window_fit") {
+  if (step.method == "window_fit" || step.method == "information") {
     return window_fit(recipe, step, data.trials, knowledge, options);
   }
   if (step.method == "posture_fit") {

@@ -1,6 +1,7 @@
 #include "validation/recipes/step_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "simulator/model/kinds.h"
@@ -64,11 +65,14 @@ void read_known(const YamlNode& node, const Recipe& recipe, const std::set<std::
 }
 
 HopsMethod read_hops(const YamlNode& node) {
-  node.allow_keys({"controller", "drop", "speed", "from", "to"});
+  node.allow_keys({"controller", "starts", "from", "to"});
   HopsMethod hops;
   hops.controller = existing_file(node.at("controller"));
-  hops.drop = read_physical(node.at("drop"), "m", "the drop");
-  hops.speed = read_physical(node.at("speed"), "m/s", "the speed");
+  const double starts = node.at("starts").number();
+  if (!(starts >= 1.0 && starts <= 1000.0) || starts != std::floor(starts)) {
+    node.at("starts").refuse("a whole number from 1 to 1000");
+  }
+  hops.starts = static_cast<int>(starts);
   hops.from = read_physical(node.at("from"), "s", "the time");
   hops.to = read_physical(node.at("to"), "s", "the time");
   if (!(hops.to > hops.from) || hops.from < 0.0) {
@@ -226,7 +230,7 @@ void read_window_fit(const YamlNode& node, const Recipe& recipe, const std::set<
 }
 
 void read_method(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given, Step& step) {
-  if (step.method == "window_fit") {
+  if (step.method == "window_fit" || step.method == "information") {
     read_window_fit(node, recipe, given, step);
   } else if (step.method == "posture_fit") {
     node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "postures", "data_of", "free",
@@ -284,9 +288,14 @@ Step read_step(const YamlNode& node, const Recipe& recipe, std::set<std::string>
   step.title = node.at("title").text();
   step.source = node.at("source").text();
   step.method =
-      known_name(node.at("method"), {"window_fit", "posture_fit", "arx", "equation_14", "equation_22"}, "method");
+      known_name(node.at("method"),
+                 {"window_fit", "information", "posture_fit", "arx", "equation_14", "equation_22"}, "method");
+  step.carried = step.method != "information";
   if (const auto carried = node.find("carried")) {
     const std::string text = known_name(*carried, {"yes", "no"}, "choice");
+    if (text == "yes" && step.method == "information") {
+      carried->refuse("\"yes\" for a step that recovers nothing", "no");
+    }
     step.carried = text == "yes";
   }
   read_method(node, recipe, given, step);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "simulator/sensing/encoder.h"
-#include "validation/hopping/hop_run.h"
+#include "validation/hopping/hop_statistics.h"
 #include "validation/hopping/hopping_file.h"
 #include "validation/recipes/linked.h"
 #include "validation/twin/twin.h"
@@ -14,6 +14,7 @@
 namespace plumbline::validation {
 namespace {
 
+constexpr double kTolerance = 1e-8;  // of hops: errors far below any sensor's resolution
 constexpr double kFarthest = 2.0;  // standard deviations of a draw
 
 double drawn(std::mt19937_64& random) {
@@ -59,15 +60,22 @@ Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& 
   return trial;
 }
 
-Trial hop_trial(const model::Model& robot, const HopsMethod& hops, std::uint64_t seed, const StopFlag* stop) {
+std::vector<Trial> hop_trials(const model::Model& robot, const HopsMethod& hops, std::uint64_t seed,
+                              const StopFlag* stop) {
   const controllers::HoppingConfig config = read_hopping(hops.controller);
   HopOptions options;
   options.trace = true;
   options.stop = stop;
   options.longest = hops.to + 0.01;
-  const HopRun run = hop(robot, config, {hops.drop, hops.speed, 0.0}, options);
+  options.integrator.relative_tolerance = kTolerance;
+  options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * kTolerance);
   std::mt19937_64 random(seed);
-  return trial_of(robot, run.trace, hops, config.period, random);
+  std::vector<Trial> trials;
+  for (const HopRun& run : hop_from(robot, config, draw_starts(hops.starts, seed), options)) {
+    trials.push_back(trial_of(robot, run.trace, hops, config.period, random));
+    trials.back().name += std::to_string(trials.size());
+  }
+  return trials;
 }
 
 }  // namespace
@@ -87,7 +95,7 @@ std::vector<Trial> twin_trials(const Recipe& recipe, const Step& step, const Tru
                                const StopFlag* stop) {
   const model::Model robot = with_unknowns(recipe.model(step.robot), truth);
   if (step.hops) {
-    return {hop_trial(robot, *step.hops, seed, stop)};
+    return hop_trials(robot, *step.hops, seed, stop);
   }
   std::vector<Trial> trials;
   TwinOptions options;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kWeak = 0.5;      // as a share of the values: worse is not known
 constexpr double kStrong = 0.95;   // correlation worth a line
 constexpr double kSettled = 1e-8;  // relative change of the cost
+constexpr int kStateIterations = 8;
 
 Finding finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
   Finding finding;
@@ -52,12 +53,19 @@ struct Fitted {
   FitNumbers numbers;
 };
 
-Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const MethodOptions& options) {
+/// Without `fit` only the windows' initial states are found, and the parameters stay where they are.
+Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters, bool fit,
+               const MethodOptions& options) {
   Fitted fitted;
-  fitted.given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  fitted.given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {kStateIterations, 1e-4});
   fitted.numbers.before = values_of(pool.model(), parameters);
-  fitted.estimate =
-      gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0, {options.iterations, kSettled});
+  if (fit) {
+    fitted.estimate =
+        gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0, {options.iterations, kSettled});
+  } else {
+    fitted.estimate = fitted.given;
+    fitted.estimate.theta = fitted.numbers.before;
+  }
   fitted.numbers.after = fitted.estimate.theta;
   const std::vector<int> windows = pool.data().windows_of(Role::train);
   fitted.numbers.deviations =
@@ -87,7 +95,7 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   check_can_move(model, parameters);
   set_typical(model, data, parameters);
   PredictorPool pool(model, data);
-  const Fitted fitted = run_fit(pool, parameters, options);
+  const Fitted fitted = run_fit(pool, parameters, step.method == "window_fit", options);
   FitOptions judging;
   judging.confidence = options.confidence;
   const std::vector<FittedParameter> judged = judge(parameters, fitted.numbers, judging);
