@@ -253,7 +253,8 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
     press(slot, x, at, up.data());
     std::swap(stored, moved);
     column = (up - now) / step;
-    column.segment(nz_, nz_) = factor_.solve(foot_jacobian(slot, at).transpose() * ((at.force - before) / step));
+    column.segment(nz_, nz_) =
+        factor_.solve(foot_jacobian(slot, at).transpose() * ((at.force - before) / step));
     return;
   }
 }

@@ -15,7 +15,8 @@ class RecipeCommand : public RobotFolder {
  protected:
   void SetUp() override {
     RobotFolder::SetUp();
-    write("recipes/recipe.yaml", with(pendulum_recipe(), "window_fit\n", "window_fit\n    window: {value: 0.25, unit: s}\n"));
+    write("recipes/recipe.yaml",
+          with(pendulum_recipe(), "window_fit\n", "window_fit\n    window: {value: 0.25, unit: s}\n"));
   }
 };
 
@@ -24,8 +25,8 @@ TEST_F(RecipeCommand, PrintsTrueAndRecoveredValues) {
   EXPECT_THAT(outcome.out, HasSubstr("met"));
   EXPECT_THAT(outcome.out, HasSubstr("1 of 1 targets met"));
   const json all = read_json("out.json");
-  EXPECT_THAT(keys(all), UnorderedElementsAre("recipe", "title", "confidence", "covered", "known", "targets_met",
-                                              "targets", "steps"));
+  EXPECT_THAT(keys(all), UnorderedElementsAre("recipe", "title", "confidence", "covered", "known",
+                                              "targets_met", "targets", "steps"));
   const json step = all["steps"][0];
   EXPECT_THAT(keys(step),
               UnorderedElementsAre("step", "title", "source", "method", "carried", "before", "after", "used",
@@ -33,7 +34,8 @@ TEST_F(RecipeCommand, PrintsTrueAndRecoveredValues) {
   const json found = step["findings"][0];
   EXPECT_THAT(keys(found), UnorderedElementsAre("unknown", "unit", "true", "recovered", "standard_deviation",
                                                 "interval", "seen", "covered", "target", "met"));
-  EXPECT_NEAR(found["recovered"].get<double>(), found["true"].get<double>(), 0.02 * found["true"].get<double>());
+  EXPECT_NEAR(found["recovered"].get<double>(), found["true"].get<double>(),
+              0.02 * found["true"].get<double>());
 }
 
 TEST_F(RecipeCommand, ExitStatusSaysThatATargetWasMissed) {
@@ -44,8 +46,9 @@ TEST_F(RecipeCommand, ExitStatusSaysThatATargetWasMissed) {
 }
 
 TEST_F(RecipeCommand, RecordedTrialsNeedNoSeedAndHaveNoTruth) {
-  write("recipes/recorded.yaml", with(pendulum_recipe(), "experiments: [" + pendulum_robot("experiments/chirp.yaml"),
-                                      "trials: [../trials/chirp"));
+  write("recipes/recorded.yaml",
+        with(pendulum_recipe(), "experiments: [" + pendulum_robot("experiments/chirp.yaml"),
+             "trials: [../trials/chirp"));
   const Outcome outcome = succeed({"fit", "--recipe", "recipes/recorded.yaml", "--json", "out.json"});
   const json found = read_json("out.json")["steps"][0]["findings"][0];
   EXPECT_TRUE(found["true"].is_null());

@@ -34,7 +34,8 @@ TEST_F(Pendulum, DifferencesAgreeWithTheSensitivities) {
   EXPECT_LT((one.Jp - two.Jp).norm(), 2e-3 * one.Jp.norm());
 }
 
-// The friction stated twice, half at each use, moved together: the derivative is that of one friction, counted twice.
+// The friction stated twice, half at each use, moved together: the derivative is that of one friction,
+// counted twice.
 TEST_F(Pendulum, TiedParametersAddUp) {
   model::Model twice = model_;
   twice.effects.push_back(twice.effects.front());

@@ -8,8 +8,8 @@
 namespace plumbline::validation {
 namespace {
 
-// F. J. Anscombe, Graphs in statistical analysis, The American Statistician 27 (1973) 17-21: each of his data sets has the
-// line y = 3 + 0.5 x with a standard error of 0.118 for the slope and 9 degrees of freedom.
+// F. J. Anscombe, Graphs in statistical analysis, The American Statistician 27 (1973) 17-21: each of his data
+// sets has the line y = 3 + 0.5 x with a standard error of 0.118 for the slope and 9 degrees of freedom.
 TEST(LeastSquares, GivesAnscombesLineAndItsStandardError) {
   Eigen::VectorXd x(11);
   Eigen::VectorXd y(11);
@@ -25,7 +25,8 @@ TEST(LeastSquares, GivesAnscombesLineAndItsStandardError) {
 }
 
 TEST(LeastSquares, RefusesAsManyUnknownsAsRows) {
-  EXPECT_THROW(least_squares(Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d::Ones()), std::invalid_argument);
+  EXPECT_THROW(least_squares(Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d::Ones()),
+               std::invalid_argument);
 }
 
 /// J w' + mu w = u + bias under held commands, by many small steps of Heun's method: no closed form is used.
@@ -61,7 +62,8 @@ TEST(FirstOrderArx, FindsBiasInertiaAndFriction) {
   EXPECT_NEAR(found.values[2], mu, 1e-6 * mu);
 }
 
-// The deviations must be those of the scatter: white noise of known size on the right-hand side of S1, many times.
+// The deviations must be those of the scatter: white noise of known size on the right-hand side of S1, many
+// times.
 TEST(FirstOrderArx, ItsDeviationsAreThoseOfTheScatter) {
   const double a = 0.96;
   const double b1 = 18.0;
@@ -103,8 +105,9 @@ TEST(FirstOrderArx, RefusesAVelocityThatNeverDecays) {
   EXPECT_THROW(first_order_arx(y, Eigen::VectorXd::LinSpaced(50, 0.0, 1.0), 0.01), std::runtime_error);
 }
 
-// Two experiments decide it by hand: alpha_torque = dJ_exp/dJ_pulley, and alpha_rotor from either row. The numbers are
-// round: rotor 4, pulleys 1 and 3, alpha_torque 1.25, alpha_rotor 0.8 give lumped inertias 5.25 and 7.75.
+// Two experiments decide it by hand: alpha_torque = dJ_exp/dJ_pulley, and alpha_rotor from either row. The
+// numbers are round: rotor 4, pulleys 1 and 3, alpha_torque 1.25, alpha_rotor 0.8 give lumped inertias 5.25
+// and 7.75.
 TEST(Equation14, TwoExperimentsByHand) {
   const Regression found =
       equation_14(4.0, Eigen::Vector2d(1.0, 3.0), Eigen::Vector2d(5.25, 7.75), Eigen::Vector2d(0.1, 0.1));

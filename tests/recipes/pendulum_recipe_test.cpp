@@ -1,10 +1,11 @@
 // A recipe from file to finding.
+#include "tests/recipes/pendulum_recipe.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "simulator/model/known_effects.h"
-#include "tests/recipes/pendulum_recipe.h"
 #include "validation/recipes/linked.h"
 #include "validation/recipes/run_recipe.h"
 #include "validation/recipes/twins.h"
@@ -16,7 +17,8 @@ void silent(const std::string& /*what*/, double /*fraction*/) {}
 
 RecipeResult result_for(std::uint64_t seed) {
   const test::TemporaryFolder folder;
-  const Recipe recipe = read_recipe(folder.write("recipe.yaml", test::pendulum_recipe()), model::known_effects());
+  const Recipe recipe =
+      read_recipe(folder.write("recipe.yaml", test::pendulum_recipe()), model::known_effects());
   RecipeOptions options;
   options.seed = seed;
   return run_recipe(recipe, options, silent);
@@ -43,7 +45,8 @@ TEST(PendulumRecipe, ASeedRepeatsAndAnotherDiffers) {
 
 TEST(Truth, StaysWithinTwoDeviationsAndScattersByOne) {
   const test::TemporaryFolder folder;
-  const Recipe recipe = read_recipe(folder.write("recipe.yaml", test::pendulum_recipe()), model::known_effects());
+  const Recipe recipe =
+      read_recipe(folder.write("recipe.yaml", test::pendulum_recipe()), model::known_effects());
   double squares = 0.0;
   const int draws = 2000;
   for (int seed = 0; seed < draws; ++seed) {
@@ -59,7 +62,8 @@ TEST(Link, GoesThereAndBack) {
   const Link inverse{"", "", 2.0, 0.5, -1, {}};
   EXPECT_DOUBLE_EQ(inverse.parameter(4.0), 1.0);
   EXPECT_DOUBLE_EQ(inverse.unknown_of(1.0), 4.0);
-  EXPECT_NEAR(inverse.slope(4.0), (inverse.parameter(4.0 + 1e-6) - inverse.parameter(4.0 - 1e-6)) / 2e-6, 1e-8);
+  EXPECT_NEAR(inverse.slope(4.0), (inverse.parameter(4.0 + 1e-6) - inverse.parameter(4.0 - 1e-6)) / 2e-6,
+              1e-8);
   const Link straight{"", "", 2.0, 0.5, 1, {}};
   EXPECT_DOUBLE_EQ(straight.parameter(4.0), 8.5);
   EXPECT_DOUBLE_EQ(straight.unknown_of(8.5), 4.0);
@@ -68,15 +72,17 @@ TEST(Link, GoesThereAndBack) {
 // What is known beforehand must pull as hard as its deviation says, and no harder.
 TEST(PendulumRecipe, AKnownUnknownStaysWithinWhatIsKnown) {
   const test::TemporaryFolder folder;
-  std::string text = test::with(test::pendulum_recipe(), "  lump:\n",
-                                "  mass:\n    title: error of the arm's mass\n    unit: kg\n"
-                                "    stated: {value: 0, unit: kg, uncertainty: 1e-9, source: a test}\n  lump:\n");
+  std::string text =
+      test::with(test::pendulum_recipe(), "  lump:\n",
+                 "  mass:\n    title: error of the arm's mass\n    unit: kg\n"
+                 "    stated: {value: 0, unit: kg, uncertainty: 1e-9, source: a test}\n  lump:\n");
   text = test::with(text, test::pendulum_robot("model.yaml"), "heavy.yaml");
   text = test::with(text, "    links:\n", "    links:\n      added_mass@arm:mass: mass\n");
   text += "    known: [mass]\n";
-  folder.write("heavy.yaml", "plumbline: model/1\nbase: " + test::pendulum_robot("model.yaml") +
-                                 "\nnote: a test\neffects:\n  - effect: added_mass\n    at: arm\n    values:\n"
-                                 "      mass: {value: 0, unit: kg, assumed: a test}\n");
+  folder.write("heavy.yaml",
+               "plumbline: model/1\nbase: " + test::pendulum_robot("model.yaml") +
+                   "\nnote: a test\neffects:\n  - effect: added_mass\n    at: arm\n    values:\n"
+                   "      mass: {value: 0, unit: kg, assumed: a test}\n");
   const Recipe recipe = read_recipe(folder.write("recipe.yaml", text), model::known_effects());
   RecipeOptions options;
   options.seed = 5;

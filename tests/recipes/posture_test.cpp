@@ -33,7 +33,8 @@ struct Point {
   double x, z;
 };
 
-/// (0, -1) turned counter-clockwise by an angle (seen from the right side, x to the right): down a link at zero.
+/// (0, -1) turned counter-clockwise by an angle (seen from the right side, x to the right): down a link at
+/// zero.
 Point down(double angle) { return {std::sin(angle), -std::cos(angle)}; }
 
 class BalancedStance : public testing::Test {
@@ -42,12 +43,14 @@ class BalancedStance : public testing::Test {
 
   model::Model model_ = stance();
   Postures postures_ = postures();
-  Posture posture_{model_, postures_, postures_.poses[0], held_by_pose(model_, postures_, postures_.poses[0])};
+  Posture posture_{model_, postures_, postures_.poses[0],
+                   held_by_pose(model_, postures_, postures_.poses[0])};
   Eigen::VectorXd readings_ = posture_.readings();
 };
 
-// Park et al. section Torso: a robot that is balanced has its centre of mass over the toe. Positions by trigonometry from
-// what the sensors read, with the masses and lengths of Table VI (r_y along the link; r_x too, in sources.md's sense).
+// Park et al. section Torso: a robot that is balanced has its centre of mass over the toe. Positions by
+// trigonometry from what the sensors read, with the masses and lengths of Table VI (r_y along the link; r_x
+// too, in sources.md's sense).
 TEST_F(BalancedStance, HasItsCentreOfMassOverTheToe) {
   const double torso = reading("torso");
   double moment = 0.0;
@@ -80,8 +83,8 @@ TEST_F(BalancedStance, HasItsCentreOfMassOverTheToe) {
   EXPECT_NEAR(total_weight(model_), mass * 9.80665, 1e-3);
 }
 
-// By virtual work with the motor held, B_Spring carries the torque of the leg shape over 5.18, and so do the cables over
-// 31.42: K_B q + preload = 5.18/... of each other, whatever the load.
+// By virtual work with the motor held, B_Spring carries the torque of the leg shape over 5.18, and so do the
+// cables over 31.42: K_B q + preload = 5.18/... of each other, whatever the load.
 TEST_F(BalancedStance, SpringAndCablesCarryTheSameLoad) {
   const double leg_shape = -0.5 * reading("knee_left");
   const double stretch = reading("mLS_left") - 31.42 * leg_shape + 31.42 / 5.18 * reading("bsp_left");

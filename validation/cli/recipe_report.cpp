@@ -91,15 +91,16 @@ void print_findings(const Recipe& recipe, const Step& step, const StepResult& re
   if (information) {
     print_table({"unknown", "unit", "value (of the model)", "standard deviation", "as a share"}, rows);
   } else {
-    print_table({"unknown", "unit", "true", "recovered", fmt::format("{:g} % interval", 100.0 * confidence), "error",
-                 "target", "verdict"},
+    print_table({"unknown", "unit", "true", "recovered", fmt::format("{:g} % interval", 100.0 * confidence),
+                 "error", "target", "verdict"},
                 rows);
   }
 }
 
 void print_step(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
                 double confidence) {
-  fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source, step.method == "information" ? "; what the data could tell, nothing recovered"
+  fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source,
+             step.method == "information" ? "; what the data could tell, nothing recovered"
              : step.carried               ? ""
                                           : "; for comparison");
   print_findings(recipe, step, result, truth, confidence);
@@ -114,8 +115,9 @@ void print_step(const Recipe& recipe, const Step& step, const StepResult& result
     fmt::print("  hardly told (known to within {:.2g} times the values): {}\n", weak.deviation, parts);
   }
   if (result.after > 0.0) {
-    fmt::print("  error in units of the floor: {:.3f} before, {:.3f} after; {} {}; {:.1f} s{}\n", result.before,
-               result.after, result.windows, step.method == "posture_fit" ? "postures" : "windows", result.seconds,
+    fmt::print("  error in units of the floor: {:.3f} before, {:.3f} after; {} {}; {:.1f} s{}\n",
+               result.before, result.after, result.windows,
+               step.method == "posture_fit" ? "postures" : "windows", result.seconds,
                result.converged ? "" : "; not settled");
   }
   fmt::print("\n");
@@ -173,12 +175,21 @@ nlohmann::json finding_json(const Recipe& recipe, const Finding& finding, const 
   return json;
 }
 
-nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth) {
-  nlohmann::json json{{"step", step.name},         {"title", step.title},     {"source", step.source},
-                      {"method", step.method},     {"carried", step.carried}, {"before", result.before},
-                      {"after", result.after},     {"used", result.windows},  {"converged", result.converged},
-                      {"seconds", result.seconds}, {"findings", nlohmann::json::array()},
-                      {"correlations", nlohmann::json::array()}, {"weak", nlohmann::json::array()}};
+nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResult& result,
+                         const Truth& truth) {
+  nlohmann::json json{{"step", step.name},
+                      {"title", step.title},
+                      {"source", step.source},
+                      {"method", step.method},
+                      {"carried", step.carried},
+                      {"before", result.before},
+                      {"after", result.after},
+                      {"used", result.windows},
+                      {"converged", result.converged},
+                      {"seconds", result.seconds},
+                      {"findings", nlohmann::json::array()},
+                      {"correlations", nlohmann::json::array()},
+                      {"weak", nlohmann::json::array()}};
   for (const Finding& finding : result.findings) {
     json["findings"].push_back(finding_json(recipe, finding, truth));
   }
@@ -218,16 +229,18 @@ void print_recipe(const Recipe& recipe, const RecipeResult& result, double confi
   }
   const Counts counts = counts_of(recipe, result);
   if (counts.known > 0) {
-    fmt::print("Without the steps for comparison: {} of {} targets met; {} of {} true values inside their {:g} % "
-               "intervals.\n",
-               counts.met, counts.targets, counts.covered, counts.known, 100.0 * confidence);
+    fmt::print(
+        "Without the steps for comparison: {} of {} targets met; {} of {} true values inside their {:g} % "
+        "intervals.\n",
+        counts.met, counts.targets, counts.covered, counts.known, 100.0 * confidence);
   }
 }
 
 nlohmann::json recipe_json(const Recipe& recipe, const RecipeResult& result, double confidence) {
   const Counts counts = counts_of(recipe, result);
-  nlohmann::json json{{"recipe", recipe.file},   {"title", recipe.title},     {"confidence", confidence},
-                      {"covered", counts.covered}, {"known", counts.known},   {"targets_met", counts.met},
+  nlohmann::json json{{"recipe", recipe.file},     {"title", recipe.title},
+                      {"confidence", confidence},  {"covered", counts.covered},
+                      {"known", counts.known},     {"targets_met", counts.met},
                       {"targets", counts.targets}, {"steps", nlohmann::json::array()}};
   for (std::size_t s = 0; s < recipe.steps.size(); ++s) {
     json["steps"].push_back(step_json(recipe, recipe.steps[s], result.steps[s], result.truth));

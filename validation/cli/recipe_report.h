@@ -15,7 +15,8 @@ Verdict verdict_of(const validation::Unknown& unknown, const validation::Finding
 /// True when every target of a step that is carried on was met.
 bool targets_met(const validation::Recipe& recipe, const validation::RecipeResult& result);
 
-void print_recipe(const validation::Recipe& recipe, const validation::RecipeResult& result, double confidence);
+void print_recipe(const validation::Recipe& recipe, const validation::RecipeResult& result,
+                  double confidence);
 nlohmann::json recipe_json(const validation::Recipe& recipe, const validation::RecipeResult& result,
                            double confidence);
 

@@ -268,8 +268,9 @@ model::Model with_values(model::Model model, const std::vector<FreeParameter>& p
     std::vector<model::ParameterId> ids{parameters[p].id};
     ids.insert(ids.end(), parameters[p].also.begin(), parameters[p].also.end());
     for (const model::ParameterId& id : ids) {
-      model.effects[static_cast<std::size_t>(id.effect)].values[static_cast<std::size_t>(id.parameter)].value =
-          theta[static_cast<Eigen::Index>(p)];
+      model.effects[static_cast<std::size_t>(id.effect)]
+          .values[static_cast<std::size_t>(id.parameter)]
+          .value = theta[static_cast<Eigen::Index>(p)];
     }
   }
   return model;

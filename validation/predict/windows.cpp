@@ -376,7 +376,8 @@ Linearisation Predictor::linearise_tied(const Window& window, const Eigen::Vecto
     }
   }
   Linearisation out = linearise(window, x0, apart);
-  Eigen::MatrixXd together = Eigen::MatrixXd::Zero(out.Jp.rows(), static_cast<Eigen::Index>(parameters.size()));
+  Eigen::MatrixXd together =
+      Eigen::MatrixXd::Zero(out.Jp.rows(), static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t k = 0; k < owner.size(); ++k) {
     together.col(owner[k]) += out.Jp.col(static_cast<Eigen::Index>(k));
   }
@@ -384,8 +385,8 @@ Linearisation Predictor::linearise_tied(const Window& window, const Eigen::Vecto
   return out;
 }
 
-// Central differences for parameters, whose influence may be small beside the integrator's error; one-sided ones for
-// states. Steps are small against a contact's depth (1 mm) and long against that error.
+// Central differences for parameters, whose influence may be small beside the integrator's error; one-sided
+// ones for states. Steps are small against a contact's depth (1 mm) and long against that error.
 Linearisation Predictor::linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
                                                   const std::vector<FreeParameter>& parameters) {
   constexpr double kPositionStep = 1e-5;

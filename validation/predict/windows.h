@@ -27,11 +27,11 @@ struct PredictOptions {
   double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
   /// Integrator steps for each sample, mean over a window; a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
-  /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any encoder's
-  /// count. A stiff ground wants rosenbrock.
+  /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
+  /// encoder's count. A stiff ground wants rosenbrock.
   integrate::Method method = integrate::Method::explicit_rk;
-  /// Derivatives by differences of whole predictions: slower, but right where a window runs through touchdown and
-  /// lift-off, and for the parameters of the ground.
+  /// Derivatives by differences of whole predictions: slower, but right where a window runs through touchdown
+  /// and lift-off, and for the parameters of the ground.
   bool differences = false;
   int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };

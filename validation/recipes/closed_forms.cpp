@@ -21,16 +21,16 @@ void add_findings(const std::vector<std::string>& unknowns, const Regression& re
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (!unknowns[i].empty()) {
-      result.findings.push_back(finding_of(unknowns[i], regression.values[k],
-                                           std::sqrt(regression.covariance(k, k)), quantile));
+      result.findings.push_back(
+          finding_of(unknowns[i], regression.values[k], std::sqrt(regression.covariance(k, k)), quantile));
     }
   }
 }
 
 const Eigen::VectorXd& values_of(const Trial& trial, const std::string& sensor) {
-  return std::find_if(trial.measured.begin(), trial.measured.end(), [&](const Measured& channel) {
-           return channel.sensor == sensor;
-         })->values;
+  return std::find_if(trial.measured.begin(), trial.measured.end(),
+                      [&](const Measured& channel) { return channel.sensor == sensor; })
+      ->values;
 }
 
 Regression arx_of(const ArxMethod& method, const Trial& trial) {
@@ -45,7 +45,8 @@ Regression arx_of(const ArxMethod& method, const Trial& trial) {
 
 }  // namespace
 
-StepResult arx(const Recipe& recipe, const Step& step, const std::vector<Trial>& trials, const MethodOptions& options) {
+StepResult arx(const Recipe& recipe, const Step& step, const std::vector<Trial>& trials,
+               const MethodOptions& options) {
   (void)recipe;
   Regression mean;
   mean.values = Eigen::Vector3d::Zero();

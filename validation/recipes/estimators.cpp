@@ -15,7 +15,8 @@ Regression least_squares(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
   }
   result.values = X.colPivHouseholderQr().solve(y);
   const double variance = (y - X * result.values).squaredNorm() / result.degrees_of_freedom;
-  result.covariance = variance * (X.transpose() * X).ldlt().solve(Eigen::MatrixXd::Identity(X.cols(), X.cols()));
+  result.covariance =
+      variance * (X.transpose() * X).ldlt().solve(Eigen::MatrixXd::Identity(X.cols(), X.cols()));
   return result;
 }
 
@@ -35,8 +36,8 @@ Regression first_order_arx(const Eigen::VectorXd& velocity, const Eigen::VectorX
   Regression result;
   result.degrees_of_freedom = arx.degrees_of_freedom;
   result.values = Eigen::Vector3d(b2 / b1, -mu * period / log_a, mu);
-  Eigen::Matrix3d slopes;  // d(bias, J, mu)/d(a, b1, b2)
-  slopes << 0.0, -b2 / (b1 * b1), 1.0 / b1,                                                    //
+  Eigen::Matrix3d slopes;                    // d(bias, J, mu)/d(a, b1, b2)
+  slopes << 0.0, -b2 / (b1 * b1), 1.0 / b1,  //
       period / (b1 * log_a) + mu * period / (a * log_a * log_a), mu * period / (b1 * log_a), 0.0,  //
       -1.0 / b1, -mu / b1, 0.0;
   result.covariance = slopes * arx.covariance * slopes.transpose();
@@ -61,8 +62,8 @@ Regression equation_14(double rotor, const Eigen::VectorXd& pulleys, const Eigen
   return result;
 }
 
-Regression equation_22(const Eigen::VectorXd& leg_shape, const Eigen::VectorXd& spring, const Eigen::VectorXd& weight,
-                       double ratio) {
+Regression equation_22(const Eigen::VectorXd& leg_shape, const Eigen::VectorXd& spring,
+                       const Eigen::VectorXd& weight, double ratio) {
   Eigen::MatrixXd X(spring.size(), 2);
   X << spring, Eigen::VectorXd::Ones(spring.size());
   const Eigen::VectorXd torque = weight.cwiseProduct(leg_shape.array().sin().abs().matrix()) / ratio;

@@ -19,8 +19,8 @@ struct Finding {
   bool seen = true;  ///< false: the data do not depend on it
 };
 
-/// A combination of free unknowns that the data hardly tell: a unit vector in shares of the values, and the standard
-/// deviation along it (1: as large as the values themselves).
+/// A combination of free unknowns that the data hardly tell: a unit vector in shares of the values, and the
+/// standard deviation along it (1: as large as the values themselves).
 struct WeakDirection {
   double deviation = 0.0;
   std::vector<std::pair<std::string, double>> parts;  ///< largest first
@@ -33,8 +33,8 @@ struct StrongCorrelation {
 
 struct StepResult {
   std::string step;
-  std::vector<Finding> findings;  ///< free unknowns, in the recipe's order
-  std::vector<Finding> updated;   ///< known unknowns, as they stand behind the step
+  std::vector<Finding> findings;                ///< free unknowns, in the recipe's order
+  std::vector<Finding> updated;                 ///< known unknowns, as they stand behind the step
   std::vector<StrongCorrelation> correlations;  ///< between free unknowns, beyond 0.95
   std::vector<WeakDirection> weak;
   double before = 0.0, after = 0.0;  ///< error in units of the floor; 0: the method has none

@@ -38,8 +38,8 @@ std::vector<WeakDirection> weak_directions(const Eigen::MatrixXd& H, const std::
   return weak;
 }
 
-std::vector<StrongCorrelation> strong_correlations(const Eigen::MatrixXd& H, const std::vector<std::string>& names,
-                                                   double least) {
+std::vector<StrongCorrelation> strong_correlations(const Eigen::MatrixXd& H,
+                                                   const std::vector<std::string>& names, double least) {
   const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
   std::vector<StrongCorrelation> strong;
   for (Eigen::Index i = 0; i < H.rows(); ++i) {
@@ -47,7 +47,8 @@ std::vector<StrongCorrelation> strong_correlations(const Eigen::MatrixXd& H, con
       const double both = std::sqrt(inverse(i, i) * inverse(j, j));
       const double correlation = both > 0.0 ? inverse(i, j) / both : 0.0;
       if (std::abs(correlation) > least) {
-        strong.push_back({names[static_cast<std::size_t>(j)], names[static_cast<std::size_t>(i)], correlation});
+        strong.push_back(
+            {names[static_cast<std::size_t>(j)], names[static_cast<std::size_t>(i)], correlation});
       }
     }
   }

@@ -7,8 +7,8 @@
 
 namespace plumbline::validation {
 
-/// The model with every link's parameter at the value of its unknown; unknowns that `values` does not have leave the
-/// model's own value.
+/// The model with every link's parameter at the value of its unknown; unknowns that `values` does not have
+/// leave the model's own value.
 model::Model with_unknowns(const LinkedModel& linked, const std::map<std::string, double>& values);
 
 /// A parameter that a step moves, and its link.
@@ -18,8 +18,8 @@ struct LinkedParameter {
   bool free = true;  ///< false: known, moved within what is known of it
 };
 
-/// The step's free unknowns, then the known ones that are uncertain. What is known enters as mean and deviation.
-/// Parameters of one unknown move together; throws InputError when their links differ.
+/// The step's free unknowns, then the known ones that are uncertain. What is known enters as mean and
+/// deviation. Parameters of one unknown move together; throws InputError when their links differ.
 std::vector<LinkedParameter> linked_parameters(const LinkedModel& linked, const Step& step,
                                                const KnowledgeMap& knowledge);
 

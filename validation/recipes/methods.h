@@ -18,13 +18,15 @@ struct MethodOptions {
 StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<Trial>& trials,
                       const KnowledgeMap& knowledge, const MethodOptions& options);
 
-/// The same over static postures: predicted readings are those of the model's equilibrium with the motors held where
-/// their encoders read; the hand's error in balancing is part of the residuals' covariance.
+/// The same over static postures: predicted readings are those of the model's equilibrium with the motors
+/// held where their encoders read; the hand's error in balancing is part of the residuals' covariance.
 StepResult posture_fit(const Recipe& recipe, const Step& step, const Postures& postures,
-                       const PostureReadings& readings, const KnowledgeMap& knowledge, const MethodOptions& options);
+                       const PostureReadings& readings, const KnowledgeMap& knowledge,
+                       const MethodOptions& options);
 
 /// Equations S1, S2 on each trial; several trials are averaged by their deviations.
-StepResult arx(const Recipe& recipe, const Step& step, const std::vector<Trial>& trials, const MethodOptions& options);
+StepResult arx(const Recipe& recipe, const Step& step, const std::vector<Trial>& trials,
+               const MethodOptions& options);
 
 StepResult equation_14(const Step& step, const KnowledgeMap& knowledge, const MethodOptions& options);
 

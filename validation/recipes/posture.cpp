@@ -70,7 +70,8 @@ Eigen::VectorXd Posture::readings(double offset) {
   return y;
 }
 
-std::vector<double> held_by_pose(const model::Model& model, const Postures& postures, const Postures::Pose& pose) {
+std::vector<double> held_by_pose(const model::Model& model, const Postures& postures,
+                                 const Postures::Pose& pose) {
   model::Plant plant(model, {});
   const Eigen::VectorXd x = start_state(plant, as_experiment(pose));
   std::vector<double> held;

@@ -19,8 +19,8 @@ double total_weight(const model::Model& model);
 /// One pose: the plant with its locks, and the equilibrium that it finds.
 class Posture {
  public:
-  /// `held`: value of each of the postures' locked places. `offset`: how far the balanced coordinate stands beside
-  /// its equilibrium; it is held there, and all else finds its own.
+  /// `held`: value of each of the postures' locked places. `offset`: how far the balanced coordinate stands
+  /// beside its equilibrium; it is held there, and all else finds its own.
   Posture(const model::Model& model, const Postures& postures, const Postures::Pose& pose,
           const std::vector<double>& held);
 
@@ -39,7 +39,8 @@ class Posture {
 };
 
 /// What the pose's coordinates, with no cable stretched, give each locked place.
-std::vector<double> held_by_pose(const model::Model& model, const Postures& postures, const Postures::Pose& pose);
+std::vector<double> held_by_pose(const model::Model& model, const Postures& postures,
+                                 const Postures::Pose& pose);
 
 /// The same as the sensors of the locked places read it.
 std::vector<double> held_by_readings(const model::Model& model, const Postures& postures,

@@ -13,7 +13,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kHandStep = 1e-3;  // of the balanced coordinate, for the readings' slope
-constexpr double kSettled = 1e-5;  // step in units of the parameters; equilibria are exact to about 1e-8
+constexpr double kSettled = 1e-5;   // step in units of the parameters; equilibria are exact to about 1e-8
 constexpr double kWeak = 0.5;
 constexpr double kStrong = 0.95;
 
@@ -31,7 +31,8 @@ class PostureProblem {
     }
     for (Eigen::Index i = 0; i < readings.sensors.cols(); ++i) {
       const std::vector<double> held = held_by_readings(model, postures, readings.sensors.col(i));
-      all_.push_back(std::make_unique<Posture>(model_, postures_, postures_.poses[static_cast<std::size_t>(i)], held));
+      all_.push_back(
+          std::make_unique<Posture>(model_, postures_, postures_.poses[static_cast<std::size_t>(i)], held));
       whiteners_.push_back(covariance(*all_.back()).llt());
     }
   }
@@ -51,7 +52,8 @@ class PostureProblem {
     }
     if (scale) {  // one robot on one scale: the same rounding every time
       const double floor = postures_.scale_resolution / std::sqrt(12.0);
-      r[r.size() - 1] = (readings_.weight.mean() - total_weight(with_values(model_, parameters_, theta))) / floor;
+      r[r.size() - 1] =
+          (readings_.weight.mean() - total_weight(with_values(model_, parameters_, theta))) / floor;
     }
     return r;
   }
@@ -106,7 +108,8 @@ class PostureProblem {
   std::vector<Eigen::LLT<Eigen::MatrixXd>> whiteners_;
 };
 
-/// Magnitudes for differences: the value, or what is known of it, or a thousandth of a metre, kilogram, or the like.
+/// Magnitudes for differences: the value, or what is known of it, or a thousandth of a metre, kilogram, or
+/// the like.
 void set_sizes(const Eigen::VectorXd& theta, std::vector<FreeParameter>& parameters) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const double here = std::abs(theta[static_cast<Eigen::Index>(p)]);
@@ -140,8 +143,8 @@ Normal normal_equations(PostureProblem& problem, const std::vector<FreeParameter
 }
 
 /// Gauss-Newton in units of each parameter's size: the equations of statics are nearly linear in them.
-Eigen::VectorXd solve(PostureProblem& problem, const std::vector<FreeParameter>& parameters, Eigen::VectorXd theta,
-                      const Eigen::VectorXd& sizes, int iterations, bool* converged) {
+Eigen::VectorXd solve(PostureProblem& problem, const std::vector<FreeParameter>& parameters,
+                      Eigen::VectorXd theta, const Eigen::VectorXd& sizes, int iterations, bool* converged) {
   for (int k = 0; k < iterations; ++k) {
     const Normal normal = normal_equations(problem, parameters, theta);
     const Eigen::MatrixXd H = sizes.asDiagonal() * normal.H * sizes.asDiagonal();
@@ -169,7 +172,8 @@ Finding finding_of(const LinkedParameter& linked, double theta, double deviation
 }  // namespace
 
 StepResult posture_fit(const Recipe& recipe, const Step& step, const Postures& postures,
-                       const PostureReadings& readings, const KnowledgeMap& knowledge, const MethodOptions& options) {
+                       const PostureReadings& readings, const KnowledgeMap& knowledge,
+                       const MethodOptions& options) {
   const LinkedModel& linked = recipe.model(step.model);
   const std::vector<LinkedParameter> list = linked_parameters(linked, step, knowledge);
   std::vector<FreeParameter> parameters = parameters_of(list);
@@ -188,7 +192,8 @@ StepResult posture_fit(const Recipe& recipe, const Step& step, const Postures& p
   const auto rows = static_cast<double>(r.size());
   result.before = std::sqrt(r.squaredNorm() / rows);
   result.converged = false;
-  const Eigen::VectorXd theta = solve(problem, parameters, start, sizes, options.iterations, &result.converged);
+  const Eigen::VectorXd theta =
+      solve(problem, parameters, start, sizes, options.iterations, &result.converged);
   result.after = std::sqrt(problem.residual(theta).squaredNorm() / rows);
   const Normal normal = normal_equations(problem, parameters, theta);
   const Eigen::MatrixXd H = sizes.asDiagonal() * normal.H * sizes.asDiagonal();
@@ -201,7 +206,8 @@ StepResult posture_fit(const Recipe& recipe, const Step& step, const Postures& p
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
     const double deviation = scatter * std::sqrt(std::max(inverse(i, i), 0.0)) * sizes[i];
-    (list[p].free ? result.findings : result.updated).push_back(finding_of(list[p], theta[i], deviation, quantile));
+    (list[p].free ? result.findings : result.updated)
+        .push_back(finding_of(list[p], theta[i], deviation, quantile));
   }
   const Eigen::MatrixXd information = inverse.topLeftCorner(free, free).inverse();
   result.weak = weak_directions(information, step.free, kWeak);

@@ -1,4 +1,5 @@
-// An identification sequence as data: which experiments, which parameters, in which order, and what is carried on.
+// An identification sequence as data: which experiments, which parameters, in which order, and what is
+// carried on.
 #pragma once
 
 #include <map>
@@ -22,13 +23,14 @@ struct Unknown {
   std::string name, title, unit;
   bool stated = false;  ///< `value` and `deviation` are given
   double value = 0.0;   ///< SI
-  double deviation = 0.0;  ///< one standard deviation of what is known before any experiment, SI; 0: not uncertain
+  double deviation =
+      0.0;  ///< one standard deviation of what is known before any experiment, SI; 0: not uncertain
   std::optional<Target> target;
 };
 
 /// parameter = times * unknown^power + plus
 struct Link {
-  std::string label;    ///< "viscous@mLA:damping"
+  std::string label;  ///< "viscous@mLA:damping"
   std::string unknown;
   double times = 1.0, plus = 0.0;
   int power = 1;  ///< 1 or -1
@@ -55,8 +57,8 @@ struct ArxMethod {
 /// Equation 14: torque and rotor factors from lumped inertias.
 struct Equation14Method {
   struct Row {
-    std::string lumped;     ///< unknown that an earlier step has estimated
-    double pulleys = 0.0;   ///< kg m^2
+    std::string lumped;    ///< unknown that an earlier step has estimated
+    double pulleys = 0.0;  ///< kg m^2
   };
   double rotor_inertia = 0.0;  ///< the manufacturer's, kg m^2
   std::vector<Row> rows;
@@ -69,17 +71,17 @@ struct Postures {
     std::vector<std::pair<std::string, double>> at;  ///< coordinates, SI
   };
   std::vector<std::string> locked;
-  std::string balanced;          ///< coordinate that a hand balances; empty: none
-  double hand = 0.0;             ///< one standard deviation of its error, SI
-  double scale_resolution = 0.0; ///< of the scale under the foot, N; 0: no scale
+  std::string balanced;           ///< coordinate that a hand balances; empty: none
+  double hand = 0.0;              ///< one standard deviation of its error, SI
+  double scale_resolution = 0.0;  ///< of the scale under the foot, N; 0: no scale
   std::vector<Pose> poses;
 };
 
 /// Equation 22 with a preload as in Figure 17: stiffness of B_Spring from balanced postures.
 struct Equation22Method {
-  std::string knee, spring;         ///< sensors
-  double ratio = 0.0;               ///< 5.18
-  std::string stiffness, preload;   ///< unknowns
+  std::string knee, spring;        ///< sensors
+  double ratio = 0.0;              ///< 5.18
+  std::string stiffness, preload;  ///< unknowns
 };
 
 /// The hopping controller on the robot in place of recorded commands: short runs from drawn starts.
@@ -117,9 +119,9 @@ struct Recipe {
   const LinkedModel& model(const std::string& name) const;
 };
 
-/// Reads recipe.yaml, or that of a folder, with all models it names. Throws InputError (one line: file, line, key,
-/// found, expected) on unknown keys, methods, unknowns, models and parameters (with the nearest names), missing
-/// experiments and trials, a step that needs what no earlier step gives, and wrong units.
+/// Reads recipe.yaml, or that of a folder, with all models it names. Throws InputError (one line: file, line,
+/// key, found, expected) on unknown keys, methods, unknowns, models and parameters (with the nearest names),
+/// missing experiments and trials, a step that needs what no earlier step gives, and wrong units.
 Recipe read_recipe(const std::string& path, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::validation

@@ -53,13 +53,15 @@ Unknown read_unknown(const std::string& name, const YamlNode& node) {
 }
 
 /// The unknown must have the parameter's unit, or be a pure number that `times` gives the unit.
-void check_link_units(const YamlNode& node, const Unknown& unknown, const std::string& unit, const Link& link) {
+void check_link_units(const YamlNode& node, const Unknown& unknown, const std::string& unit,
+                      const Link& link) {
   const bool pure = units_agree(unknown.unit, "1");
   if (link.power == -1 && !pure) {
     node.at("power").refuse("power -1 of an unknown in " + unknown.unit, "a pure number");
   }
   if (node.is_map() && node.has("times") && !pure) {
-    node.at("times").refuse("a factor for an unknown in " + unknown.unit, "none, or an unknown that is a pure number");
+    node.at("times").refuse("a factor for an unknown in " + unknown.unit,
+                            "none, or an unknown that is a pure number");
   }
   const bool scaled = node.is_map() && node.has("times");
   if (!scaled && !units_agree(unknown.unit, unit)) {
@@ -94,8 +96,8 @@ Link read_link(const FreeParameter& parameter, const YamlNode& node, const std::
   return link;
 }
 
-LinkedModel read_linked_model(const std::string& name, const YamlNode& node, const std::vector<Unknown>& unknowns,
-                              const effects::Catalogue& catalogue) {
+LinkedModel read_linked_model(const std::string& name, const YamlNode& node,
+                              const std::vector<Unknown>& unknowns, const effects::Catalogue& catalogue) {
   node.allow_keys({"file", "links"});
   LinkedModel linked;
   linked.name = name;
@@ -108,9 +110,8 @@ LinkedModel read_linked_model(const std::string& name, const YamlNode& node, con
   }
   for (const auto& [label, entry] : node.at("links").entries()) {
     const auto parameter =
-        std::find_if(parameters.begin(), parameters.end(), [&, wanted = label](const FreeParameter& one) {
-          return one.label == wanted;
-        });
+        std::find_if(parameters.begin(), parameters.end(),
+                     [&, wanted = label](const FreeParameter& one) { return one.label == wanted; });
     if (parameter == parameters.end()) {
       entry.refuse(model::quote(label), "a parameter of " + linked.file + nearest_names(label, labels));
     }

@@ -29,7 +29,9 @@ std::vector<Trial> recorded(const Recipe& recipe, const Step& step) {
 }
 
 /// A seed of its own for each step: far from those of the neighbouring seeds.
-std::uint64_t seed_of(std::uint64_t seed, std::size_t step) { return 1000003ULL * seed + 101ULL * (step + 1); }
+std::uint64_t seed_of(std::uint64_t seed, std::size_t step) {
+  return 1000003ULL * seed + 101ULL * (step + 1);
+}
 
 StepData measure(const Recipe& recipe, const Step& step, std::size_t index, const RecipeOptions& options,
                  const Truth& truth) {
@@ -45,8 +47,8 @@ StepData measure(const Recipe& recipe, const Step& step, std::size_t index, cons
   return data;
 }
 
-StepResult carry_out(const Recipe& recipe, const Step& step, const StepData& data, const KnowledgeMap& knowledge,
-                     const MethodOptions& options) {
+StepResult carry_out(const Recipe& recipe, const Step& step, const StepData& data,
+                     const KnowledgeMap& knowledge, const MethodOptions& options) {
   if (step.method == "window_fit" || step.method == "information") {
     return window_fit(recipe, step, data.trials, knowledge, options);
   }
@@ -109,7 +111,8 @@ RecipeResult run_recipe(const Recipe& recipe, const RecipeOptions& options, cons
     const Step& step = recipe.steps[i];
     progress(step.title, static_cast<double>(i) / static_cast<double>(recipe.steps.size()));
     const auto begin = std::chrono::steady_clock::now();
-    data[step.name] = step.data_of.empty() ? measure(recipe, step, i, options, result.truth) : data[step.data_of];
+    data[step.name] =
+        step.data_of.empty() ? measure(recipe, step, i, options, result.truth) : data[step.data_of];
     result.steps.push_back(carry_out(recipe, step, data[step.name], knowledge, options.method));
     result.steps.back().seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

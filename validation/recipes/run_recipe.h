@@ -11,7 +11,8 @@
 namespace plumbline::validation {
 
 struct RecipeOptions {
-  std::optional<std::uint64_t> seed;  ///< of true values and sensors' noise; needed where the recipe has experiments
+  std::optional<std::uint64_t>
+      seed;  ///< of true values and sensors' noise; needed where the recipe has experiments
   MethodOptions method;
 };
 
@@ -20,8 +21,8 @@ struct RecipeResult {
   std::vector<StepResult> steps;
 };
 
-/// Throws InputError when a step needs twins and there is no seed. No method sees the truth: it goes to the twins and to
-/// the result only.
+/// Throws InputError when a step needs twins and there is no seed. No method sees the truth: it goes to the
+/// twins and to the result only.
 RecipeResult run_recipe(const Recipe& recipe, const RecipeOptions& options, const Progress& progress);
 
 }  // namespace plumbline::validation

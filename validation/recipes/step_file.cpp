@@ -40,7 +40,8 @@ std::vector<std::string> read_unknowns(const std::optional<YamlNode>& list, cons
     const bool is_linked = std::any_of(linked.links.begin(), linked.links.end(),
                                        [&](const Link& link) { return link.unknown == name; });
     if (!is_linked) {
-      item.refuse(model::quote(name), "an unknown that model " + model::quote(linked.name) + " links to a parameter");
+      item.refuse(model::quote(name),
+                  "an unknown that model " + model::quote(linked.name) + " links to a parameter");
     }
     if (std::find(all.begin(), all.end(), name) != all.end()) {
       item.refuse(model::quote(name) + " a second time", "each unknown once");
@@ -56,7 +57,8 @@ void read_known(const YamlNode& node, const Recipe& recipe, const std::set<std::
   for (std::size_t i = 0; i < step.known.size(); ++i) {
     const std::string& name = step.known[i];
     if (given.count(name) == 0 && !recipe.unknown(name).stated) {
-      list->items()[i].refuse(model::quote(name), "an unknown that an earlier step estimates, or one with `stated`");
+      list->items()[i].refuse(model::quote(name),
+                              "an unknown that an earlier step estimates, or one with `stated`");
     }
     if (std::find(step.free.begin(), step.free.end(), name) != step.free.end()) {
       list->items()[i].refuse(model::quote(name) + ", which is free too", "each unknown in one list");
@@ -171,7 +173,8 @@ void read_arx(const YamlNode& node, const Recipe& recipe, Step& step) {
   }
 }
 
-void read_equation_14(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given, Step& step) {
+void read_equation_14(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given,
+                      Step& step) {
   Equation14Method& method = step.equation_14;
   method.rotor_inertia =
       model::read_quantity(node.at("rotor_inertia"), {"kg m^2", Sign::positive, false, {}}).value;
@@ -218,9 +221,10 @@ void read_fit(const YamlNode& node, const Recipe& recipe, const std::set<std::st
   read_known(node, recipe, given, step);
 }
 
-void read_window_fit(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given, Step& step) {
-  node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "experiments", "trials", "hops",
-                   "data_of", "window", "free", "known"});
+void read_window_fit(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given,
+                     Step& step) {
+  node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "experiments", "trials",
+                   "hops", "data_of", "window", "free", "known"});
   read_models(node, recipe, step);
   read_data(node, recipe, {"experiments", "trials", "hops", "data_of"}, step);
   if (const auto window = node.find("window")) {
@@ -233,14 +237,14 @@ void read_method(const YamlNode& node, const Recipe& recipe, const std::set<std:
   if (step.method == "window_fit" || step.method == "information") {
     read_window_fit(node, recipe, given, step);
   } else if (step.method == "posture_fit") {
-    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "postures", "data_of", "free",
-                     "known"});
+    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "postures", "data_of",
+                     "free", "known"});
     read_models(node, recipe, step);
     read_data(node, recipe, {"postures", "data_of"}, step);
     read_fit(node, recipe, given, step);
   } else if (step.method == "arx") {
-    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "experiments", "trials",
-                     "data_of", "motor", "sensor", "bias", "inertia", "friction"});
+    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "experiments",
+                     "trials", "data_of", "motor", "sensor", "bias", "inertia", "friction"});
     read_models(node, recipe, step);
     read_data(node, recipe, {"experiments", "trials", "data_of"}, step);
     read_arx(node, recipe, step);
@@ -249,8 +253,8 @@ void read_method(const YamlNode& node, const Recipe& recipe, const std::set<std:
                      "rotor_factor"});
     read_equation_14(node, recipe, given, step);
   } else {
-    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "postures", "data_of", "knee",
-                     "spring", "ratio", "stiffness", "preload"});
+    node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "postures", "data_of",
+                     "knee", "spring", "ratio", "stiffness", "preload"});
     read_models(node, recipe, step);
     read_data(node, recipe, {"postures", "data_of"}, step);
     read_equation_22(node, recipe, step);

@@ -13,7 +13,8 @@ namespace plumbline::validation {
 std::vector<std::string> names_of(const std::vector<Unknown>& unknowns);
 
 /// The node's text, which must be one of the names; otherwise it is refused with the nearest.
-std::string known_name(const model::YamlNode& node, const std::vector<std::string>& names, const std::string& kind);
+std::string known_name(const model::YamlNode& node, const std::vector<std::string>& names,
+                       const std::string& kind);
 
 /// Path relative to the file in which it stands; it must be there.
 std::string existing_file(const model::YamlNode& node);

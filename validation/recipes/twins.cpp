@@ -15,7 +15,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kTolerance = 1e-8;  // of hops: errors far below any sensor's resolution
-constexpr double kFarthest = 2.0;  // standard deviations of a draw
+constexpr double kFarthest = 2.0;    // standard deviations of a draw
 
 double drawn(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
@@ -55,7 +55,8 @@ Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& 
   }
   for (const model::Motor& motor : robot.motors) {
     const Column& column = *trace.find("u_" + motor.name);
-    trial.commands.push_back({motor.name, column.name, motor.command_unit, column.values.segment(first, count)});
+    trial.commands.push_back(
+        {motor.name, column.name, motor.command_unit, column.values.segment(first, count)});
   }
   return trial;
 }
@@ -108,7 +109,8 @@ std::vector<Trial> twin_trials(const Recipe& recipe, const Step& step, const Tru
   return trials;
 }
 
-PostureReadings twin_postures(const Recipe& recipe, const Step& step, const Truth& truth, std::uint64_t seed) {
+PostureReadings twin_postures(const Recipe& recipe, const Step& step, const Truth& truth,
+                              std::uint64_t seed) {
   const model::Model robot = with_unknowns(recipe.model(step.robot), truth);
   const Postures& postures = *step.postures;
   std::mt19937_64 random(seed);

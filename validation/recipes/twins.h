@@ -10,12 +10,12 @@
 
 namespace plumbline::validation {
 
-/// Stated value plus deviation times a standard normal number within two deviations, for each stated unknown in file
-/// order.
+/// Stated value plus deviation times a standard normal number within two deviations, for each stated unknown
+/// in file order.
 Truth draw_truth(const Recipe& recipe, std::uint64_t seed);
 
-/// One trial for each of the step's experiments, or one of its hops, as the robot's sensors would have recorded them.
-/// Throws std::runtime_error when the robot falls before the stretch of hops is over.
+/// One trial for each of the step's experiments, or one of its hops, as the robot's sensors would have
+/// recorded them. Throws std::runtime_error when the robot falls before the stretch of hops is over.
 std::vector<Trial> twin_trials(const Recipe& recipe, const Step& step, const Truth& truth, std::uint64_t seed,
                                const StopFlag* stop);
 

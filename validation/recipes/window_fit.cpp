@@ -1,4 +1,4 @@
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,8 @@ Finding finding_of(const LinkedParameter& linked, const FittedParameter& fitted)
   return finding;
 }
 
-/// Information on the free unknowns alone, in the parameters' search units; what is known of the others is in it.
+/// Information on the free unknowns alone, in the parameters' search units; what is known of the others is in
+/// it.
 Eigen::MatrixXd free_information(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                  const Estimate& estimate, Eigen::Index free) {
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
@@ -48,6 +49,20 @@ Eigen::MatrixXd free_information(PredictorPool& pool, const std::vector<FreePara
          across * H.bottomRightCorner(known, known).ldlt().solve(Eigen::MatrixXd(across.transpose()));
 }
 
+/// What the sensors' floors alone would leave: the residuals are not those of a fit.
+void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
+                    const std::vector<LinkedParameter>& list, std::vector<Finding>& findings) {
+  const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
+  for (std::size_t p = 0; p < findings.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    const LinkedParameter& one = list[p];
+    const double value = one.link.parameter(findings[p].value);
+    const double search = std::sqrt(std::max(inverse(i, i), 0.0)) * units[i];
+    findings[p].deviation =
+        std::abs(search_slope(one.parameter.scale, value) / one.link.slope(findings[p].value)) * search;
+  }
+}
+
 struct Fitted {
   Estimate given, estimate;
   FitNumbers numbers;
@@ -60,8 +75,8 @@ Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters
   fitted.given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {kStateIterations, 1e-4});
   fitted.numbers.before = values_of(pool.model(), parameters);
   if (fit) {
-    fitted.estimate =
-        gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0, {options.iterations, kSettled});
+    fitted.estimate = gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0,
+                                   {options.iterations, kSettled});
   } else {
     fitted.estimate = fitted.given;
     fitted.estimate.theta = fitted.numbers.before;
@@ -110,6 +125,9 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   }
   const Eigen::MatrixXd H =
       free_information(pool, parameters, fitted.estimate, static_cast<Eigen::Index>(names.size()));
+  if (step.method == "information") {
+    set_deviations(H, search_units(parameters, fitted.estimate.theta), list, result.findings);
+  }
   result.weak = weak_directions(H, names, kWeak);
   result.correlations = strong_correlations(H, names, kStrong);
   result.before = fitted.given.scores.train;
