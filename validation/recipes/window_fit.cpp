@@ -49,6 +49,16 @@ Eigen::MatrixXd free_information(PredictorPool& pool, const std::vector<FreePara
          across * H.bottomRightCorner(known, known).ldlt().solve(Eigen::MatrixXd(across.transpose()));
 }
 
+/// The same with derivatives by differences, which are right through a touchdown.
+Eigen::MatrixXd exact_information(const model::Model& model, Data data,
+                                  const std::vector<FreeParameter>& parameters, const Estimate& estimate,
+                                  Eigen::Index free) {
+  data.predict.differences = true;
+  data.predict.relative_tolerance = 1e-6;  // well below the differences' steps
+  PredictorPool pool(model, data);
+  return free_information(pool, parameters, estimate, free);
+}
+
 /// What the sensors' floors alone would leave: the residuals are not those of a fit.
 void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
                     const std::vector<LinkedParameter>& list, std::vector<Finding>& findings) {
@@ -123,8 +133,10 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
       names.push_back(list[p].link.unknown);
     }
   }
-  const Eigen::MatrixXd H =
-      free_information(pool, parameters, fitted.estimate, static_cast<Eigen::Index>(names.size()));
+  const auto free = static_cast<Eigen::Index>(names.size());
+  const Eigen::MatrixXd H = step.method == "information"
+                                ? exact_information(model, data, parameters, fitted.estimate, free)
+                                : free_information(pool, parameters, fitted.estimate, free);
   if (step.method == "information") {
     set_deviations(H, search_units(parameters, fitted.estimate.theta), list, result.findings);
   }
