@@ -72,10 +72,11 @@ TEST_F(MabelRecipe, SaysHowSureItIs) {
   EXPECT_EQ(far, 0);
 }
 
-// Equation 22 takes the whole weight at the hip. By the links of Table VI (leg straight under the hip, W = 636.6 N), all
-// times sin(q_LS): thigh and shin miss (3.2818 * 0.1978 + 1.5007 * 0.657) kg m g = 16.0 N m; C_Spring, which hangs and
-// turns by 2 q_LS, takes 4 * 2.199 N m cos(q_LS), and C_Shin 1.447 N m. At 20 deg that is 25.7 of 636.6 N m: K_B comes
-// out 636.6/610.9 - 1 = 4.2 % too large. Between the poses' 8 and 30 deg it changes little; the rest is resolution.
+// Equation 22 takes the whole weight at the hip. By the links of Table VI (leg straight under the hip, W =
+// 636.6 N), all times sin(q_LS): thigh and shin miss (3.2818 * 0.1978 + 1.5007 * 0.657) kg m g = 16.0 N m;
+// C_Spring, which hangs and turns by 2 q_LS, takes 4 * 2.199 N m cos(q_LS), and C_Shin 1.447 N m. At 20 deg
+// that is 25.7 of 636.6 N m: K_B comes out 636.6/610.9 - 1 = 4.2 % too large. Between the poses' 8 and 30 deg
+// it changes little; the rest is resolution.
 TEST_F(MabelRecipe, Equation22LeavesOutTheLegsOwnWeight) {
   const double truth = result_.truth.at("spring_stiffness");
   const double printed = finding("spring_equation_22", "spring_stiffness").value / truth - 1.0;
