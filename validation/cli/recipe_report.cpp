@@ -191,7 +191,8 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
                       {"correlations", nlohmann::json::array()},
                       {"weak", nlohmann::json::array()}};
   for (const Finding& finding : result.findings) {
-    json["findings"].push_back(finding_json(recipe, finding, truth));
+    // Nothing is recovered where only information is asked for.
+    json["findings"].push_back(finding_json(recipe, finding, step.method == "information" ? Truth{} : truth));
   }
   for (const validation::StrongCorrelation& one : result.correlations) {
     json["correlations"].push_back({{"one", one.one}, {"other", one.other}, {"correlation", one.value}});
