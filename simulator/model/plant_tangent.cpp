@@ -257,6 +257,26 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
       return;
     }
   }
+  // The ground: the foot is where rate() has left it, in the middle of the sample.
+  effects::Values& stored = values_[static_cast<std::size_t>(id.effect)];
+  for (const FootSlot& slot : feet_) {
+    if (model_.effects[static_cast<std::size_t>(id.effect)].at !=
+        model_.feet[static_cast<std::size_t>(slot.foot)].name) {
+      continue;
+    }
+    Touch at = touch(slot);
+    Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
+    Eigen::VectorXd up = now;
+    press(slot, x, at, now.data());
+    const Eigen::Vector3d before = at.force;
+    std::swap(stored, moved);
+    press(slot, x, at, up.data());
+    std::swap(stored, moved);
+    column = (up - now) / step;
+    column.segment(nz_, nz_) =
+        factor_.solve(foot_jacobian(slot, at).transpose() * ((at.force - before) / step));
+    return;
+  }
 }
 
 void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,

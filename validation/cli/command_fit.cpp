@@ -5,7 +5,9 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
+#include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/recipe_report.h"
 #include "validation/fit/fit.h"
 
 namespace plumbline::cli {
@@ -20,6 +22,8 @@ struct Options {
   std::vector<std::string> free;
   std::string out;
   validation::FitOptions fit;
+  std::string recipe;
+  std::optional<std::uint64_t> seed;
 };
 
 nlohmann::json to_json(const FittedParameter& parameter) {
@@ -156,27 +160,73 @@ void run(const Options& options) {
   print(fit, loaded, options);
 }
 
+/// A whole identification sequence; status 1 when a target was missed.
+void run_recipe(const Options& options, Outcome& outcome) {
+  check_writable(options.inputs.json);
+  const validation::Recipe recipe = validation::read_recipe(options.recipe, model::known_effects());
+  validation::RecipeOptions recipe_options;
+  recipe_options.seed = options.seed;
+  recipe_options.method.confidence = options.fit.confidence;
+  recipe_options.method.iterations = options.fit.iterations;
+  recipe_options.method.stop = &stop_flag();
+  validation::RecipeResult result;
+  {
+    ProgressLine progress;
+    result = validation::run_recipe(recipe, recipe_options, progress.callback());
+  }
+  write_json(recipe_json(recipe, result, options.fit.confidence), options.inputs.json);
+  print_recipe(recipe, result, options.fit.confidence);
+  outcome.status = targets_met(recipe, result) ? 0 : 1;
+}
+
+/// Either trials and what to free, or a recipe.
+void check_usage(const CLI::App& command, const Options& options) {
+  if (options.recipe.empty()) {
+    for (const char* needed : {"trial", "--free"}) {
+      if (command.count(needed) == 0) {
+        throw CLI::RequiredError(needed);
+      }
+    }
+    if (options.seed) {
+      throw CLI::RequiresError("--seed", "--recipe");
+    }
+    return;
+  }
+  for (const char* other : {"trial", "--free", "--out", "--model", "--data", "--window"}) {
+    if (command.count(other) > 0) {
+      throw CLI::ExcludesError("--recipe", other);
+    }
+  }
+}
+
 }  // namespace
 
-void add_fit(CLI::App& app, Outcome& /*outcome*/) {
+void add_fit(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("fit", "Estimate parameters, how sure they are, and what the data cannot tell");
   add_trial_inputs(*command, options->inputs);
+  command->get_option("trial")->required(false);  // a recipe names its own
   command
       ->add_option(
           "--free", options->free,
           "parameters to fit: a pattern (* and ?) over EFFECT@PLACE:PARAMETER; may be given several times")
-      ->required()
       ->type_name("PATTERN");
+  command->add_option("--recipe", options->recipe, "carry out an identification sequence in place of one fit")
+      ->type_name("FILE");
+  command->add_option("--seed", options->seed, "of the true values and the noise of a recipe's twins");
   command->add_option("-o,--out", options->out, "write the fitted values as an overlay on the model")
       ->type_name("FILE");
   command->add_option("--iterations", options->fit.iterations, "most iterations of the solver")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->footer(
-      "Example:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml");
-  command->callback([options] { run(*options); });
+      "Examples:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml\n"
+      "  plumbline fit --recipe validation/recipes/mabel --seed 7");
+  command->callback([options, command, &outcome] {
+    check_usage(*command, *options);
+    options->recipe.empty() ? run(*options) : run_recipe(*options, outcome);
+  });
 }
 
 }  // namespace plumbline::cli

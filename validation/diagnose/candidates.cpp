@@ -265,9 +265,13 @@ Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParam
 model::Model with_values(model::Model model, const std::vector<FreeParameter>& parameters,
                          const Eigen::VectorXd& theta) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const model::ParameterId id = parameters[p].id;
-    model.effects[static_cast<std::size_t>(id.effect)].values[static_cast<std::size_t>(id.parameter)].value =
-        theta[static_cast<Eigen::Index>(p)];
+    std::vector<model::ParameterId> ids{parameters[p].id};
+    ids.insert(ids.end(), parameters[p].also.begin(), parameters[p].also.end());
+    for (const model::ParameterId& id : ids) {
+      model.effects[static_cast<std::size_t>(id.effect)]
+          .values[static_cast<std::size_t>(id.parameter)]
+          .value = theta[static_cast<Eigen::Index>(p)];
+    }
   }
   return model;
 }

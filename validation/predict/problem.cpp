@@ -97,7 +97,7 @@ void PredictorPool::with(int window, const std::vector<FreeParameter>& parameter
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const double value = theta[static_cast<Eigen::Index>(p)];
     if (predictor->plant().value(parameters[p].id) != value) {
-      predictor->plant().set_value(parameters[p].id, value);
+      parameters[p].set(predictor->plant(), value);
     }
   }
   const long before = predictor->evaluations();

@@ -29,6 +29,13 @@ std::vector<Eigen::Index> cut_points(const Trial& trial) {
 
 }  // namespace
 
+void FreeParameter::set(model::Plant& plant, double value) const {
+  plant.set_value(id, value);
+  for (const model::ParameterId& other : also) {
+    plant.set_value(other, value);
+  }
+}
+
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
   std::vector<Window> windows;
   for (std::size_t t = 0; t < trials.size(); ++t) {
@@ -202,7 +209,8 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   integrate::PlantOde ode(plant_, false, false);
   integrate::Options options;
   options.relative_tolerance = options_.relative_tolerance;
-  options.order = 3;  // one step for each held sample: four evaluations, errors far below any encoder's count
+  options.method = options_.method;
+  options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
   options.absolute_tolerance = Eigen::VectorXd::Constant(1, options_.relative_tolerance * 1e-2);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
@@ -276,6 +284,14 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, const std::vect
 // samples that share them.
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
+  if (options_.differences) {
+    return linearise_by_differences(window, x0, parameters);
+  }
+  for (const FreeParameter& parameter : parameters) {
+    if (!parameter.also.empty()) {
+      return linearise_tied(window, x0, parameters);
+    }
+  }
   Linearisation out;
   const Eigen::MatrixXd predicted = predict(window, x0);
   out.r = residual_of(window, predicted);
@@ -339,6 +355,71 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     A = square - A;
     A.diagonal().array() += 1.0;
     S = A.partialPivLu().solve(right);
+  }
+  return out;
+}
+
+// Each of the tied parameters by itself; their columns add up.
+Linearisation Predictor::linearise_tied(const Window& window, const Eigen::VectorXd& x0,
+                                        const std::vector<FreeParameter>& parameters) {
+  std::vector<FreeParameter> apart;
+  std::vector<Eigen::Index> owner;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    FreeParameter one = parameters[p];
+    std::vector<model::ParameterId> ids{one.id};
+    ids.insert(ids.end(), one.also.begin(), one.also.end());
+    one.also.clear();
+    for (const model::ParameterId& id : ids) {
+      one.id = id;
+      apart.push_back(one);
+      owner.push_back(static_cast<Eigen::Index>(p));
+    }
+  }
+  Linearisation out = linearise(window, x0, apart);
+  Eigen::MatrixXd together =
+      Eigen::MatrixXd::Zero(out.Jp.rows(), static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t k = 0; k < owner.size(); ++k) {
+    together.col(owner[k]) += out.Jp.col(static_cast<Eigen::Index>(k));
+  }
+  out.Jp = together;
+  return out;
+}
+
+// Central differences for parameters, whose influence may be small beside the integrator's error; one-sided
+// ones for states. Steps are small against a contact's depth (1 mm) and long against that error.
+Linearisation Predictor::linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
+                                                  const std::vector<FreeParameter>& parameters) {
+  constexpr double kPositionStep = 1e-5;
+  constexpr double kVelocityStep = 1e-3;
+  constexpr double kShareOfParameter = 0.05;
+  Linearisation out;
+  out.r = residual(window, x0);
+  const Eigen::Index nx = plant_.states();
+  const Eigen::Index nz = plant_.positions();
+  out.Jx = Eigen::MatrixXd::Zero(out.r.size(), nx);
+  out.Jp.resize(out.r.size(), static_cast<Eigen::Index>(parameters.size()));
+  const std::vector<int> carried = plant_.force_states();
+  Eigen::VectorXd moved = x0;
+  for (Eigen::Index i = 0; i < nx; ++i) {
+    if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {
+      continue;  // it follows the measured motion, not the window's start
+    }
+    const double step = i >= nz && i < 2 * nz ? kVelocityStep : kPositionStep;
+    moved[i] = x0[i] + step;
+    out.Jx.col(i) = (out.r - residual(window, moved)) / step;
+    moved[i] = x0[i];
+  }
+  for (Eigen::Index p = 0; p < out.Jp.cols(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = plant_.value(parameter.id);
+    const double step = kShareOfParameter * (here != 0.0 ? std::abs(here) : parameter.typical);
+    const double up = std::min(here + step, parameter.upper);
+    const double down = std::max(here - step, parameter.lower);
+    parameter.set(plant_, up);
+    const Eigen::VectorXd above = residual(window, x0);
+    parameter.set(plant_, down);
+    out.Jp.col(p) = (residual(window, x0) - above) / (up - down);
+    parameter.set(plant_, here);
   }
   return out;
 }

@@ -27,6 +27,12 @@ struct PredictOptions {
   double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
   /// Integrator steps for each sample, mean over a window; a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
+  /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
+  /// encoder's count. A stiff ground wants rosenbrock.
+  integrate::Method method = integrate::Method::explicit_rk;
+  /// Derivatives by differences of whole predictions: slower, but right where a window runs through touchdown
+  /// and lift-off, and for the parameters of the ground.
+  bool differences = false;
   int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
@@ -44,6 +50,9 @@ struct FreeParameter {
   double typical = 1.0;
   double mean = 0.0;                                           ///< what is known of it beforehand
   double deviation = std::numeric_limits<double>::infinity();  ///< and how well; infinite: not at all
+  std::vector<model::ParameterId> also{};                      ///< parameters that always have the same value
+
+  void set(model::Plant& plant, double value) const;
 };
 
 /// The window's residual r = (measured - predicted) / floor, channel by channel within each sample, and
@@ -84,6 +93,10 @@ class Predictor {
 
  private:
   void run(const Window& window, const Eigen::VectorXd& x0);
+  Linearisation linearise_tied(const Window& window, const Eigen::VectorXd& x0,
+                               const std::vector<FreeParameter>& parameters);
+  Linearisation linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
+                                         const std::vector<FreeParameter>& parameters);
   void refresh_commands();
   void tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
                   const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
