@@ -1,5 +1,9 @@
 #include <fmt/core.h>
 
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -33,6 +37,7 @@ struct Options {
   std::string published;
   bool sides = false;
   double width = 0.4;
+  std::vector<std::array<double, 3>> platforms;
 };
 
 nlohmann::json to_json(const HopRun& run) {
@@ -169,6 +174,15 @@ std::vector<std::string> search_head(const controllers::HoppingConfig& config, b
   return head;
 }
 
+/// A row at once: a search takes long, and may be stopped.
+void print_now(const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) {
+    fmt::print("  {:>9}", cell);
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
 void run_search(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
   validation::HopSearchOptions search;
   search.trials = options.search;
@@ -179,22 +193,29 @@ void run_search(const Options& options, const model::Model& model, const control
   search.width = options.width;
   search.run = options.run;
   search.published = validation::read_published(options.published);
-  ProgressLine line;
-  const validation::Progress show = line.callback();
-  std::vector<std::vector<std::string>> rows;
+  print_now(search_head(config, options.sides));
   const validation::HopSearchResult best = validation::search_gains(
-      model, config, search, [&](int trial, const validation::HopSearchResult& result) {
-        rows.push_back(describe(result, options.sides));
-        show("gain sets", static_cast<double>(trial + 1) / search.trials);
-      });
-  rows.push_back(describe(best, options.sides));
-  print_table(search_head(config, options.sides), rows);
-  fmt::print("\nThe last line repeats the best.\n");
+      model, config, search,
+      [&](int, const validation::HopSearchResult& result) { print_now(describe(result, options.sides)); });
+  fmt::print("\nThe best:\n");
+  print_now(describe(best, options.sides));
   nlohmann::json json{{"cost", best.cost}, {"statistics", to_json(best.statistics)}};
   for (const validation::Searched& searched : validation::searched_values(best.config, options.sides)) {
     json["gains"][searched.name] = searched.value;
   }
   write_json(json, options.json);
+}
+
+contact::Terrain terrain_of(const Options& options) {
+  std::vector<contact::Platform> platforms;
+  for (const auto& [from, to, height] : options.platforms) {
+    platforms.push_back({from, to, height});
+  }
+  try {
+    return contact::Terrain(0.0, platforms);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("--platform: ") + error.what());
+  }
 }
 
 void run(Options options) {
@@ -213,6 +234,7 @@ void run(Options options) {
   integrate::Options& integrator = options.run.integrator;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
   options.run.stop = &stop_flag();
+  options.run.terrain = terrain_of(options);
   if (options.search > 0) {
     run_search(options, model, config);
   } else if (options.starts > 1) {
@@ -253,6 +275,10 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("--enough", options->enough, "hops that count as sustained")->capture_default_str();
   command->add_option("--search", options->search, "look for gains, trying so many sets")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--platform", options->platforms,
+                   "a step in the ground: from and to along the way, height, m (again for more)")
+      ->type_name("FROM TO HEIGHT");
   command->add_option("--published", options->published, "with --search: what the gait is held against")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
