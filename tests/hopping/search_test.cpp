@@ -107,7 +107,8 @@ TEST(DrawnModels, StayWithinTheirShareAndDiffer) {
   }
 }
 
-// Worked out by hand: half the hops missing costs 10; travel off by two tolerances log(5); no torso quantity.
+// Worked out by hand: half the hops missing costs 10; of the two settled hops (ten, less five and three) one is off by
+// two tolerances, one by four: log(1 + (4 + 16)/2).
 TEST(HoppingCost, IsWhatItsDescriptionSays) {
   Published travel;
   travel.measure = find_measure("travel");
@@ -117,10 +118,10 @@ TEST(HoppingCost, IsWhatItsDescriptionSays) {
   run.fell = true;
   for (int h = 0; h < 10; ++h) {
     Hop hop;
-    hop.travel = -0.33;
+    hop.travel = h == 6 ? -0.39 : -0.33;
     run.hops.push_back(hop);
   }
-  EXPECT_NEAR(hopping_cost({}, {run}, 20, {travel}), 10.0 + std::log(5.0), 1e-12);
+  EXPECT_NEAR(hopping_cost({}, {run}, 20, {travel}), 10.0 + std::log(11.0), 1e-12);
   EXPECT_NEAR(hopping_cost({}, {HopRun()}, 20, {travel}), 20.0 + std::log(901.0), 1e-12);
 }
 

@@ -186,7 +186,7 @@ void print_now(const std::vector<std::string>& cells) {
 void run_search(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
   validation::HopSearchOptions search;
   search.trials = options.search;
-  search.starts = std::max(options.starts, 4);
+  search.starts = std::max(options.starts, 2);
   search.hops = options.run.hops;
   search.seed = options.seed;
   search.sides = options.sides;

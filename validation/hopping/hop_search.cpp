@@ -83,12 +83,12 @@ double hopping_cost(const HoppingConfig& config, const std::vector<HopRun>& runs
     if (quantity.measure->kind != Measure::Kind::of_a_hop) {
       continue;
     }
-    std::vector<double> values;
+    double square = hops.empty() ? kNoHop * kNoHop : 0.0;
     for (const Hop& hop : hops) {
-      values.push_back(measure_of(*quantity.measure, hop, config));
+      const double off = quantity.deviation(measure_of(*quantity.measure, hop, config));
+      square += off * off / static_cast<double>(hops.size());
     }
-    const double off = values.empty() ? kNoHop : quantity.deviation(spread_of(values).mean);
-    cost += std::log1p(off * off);
+    cost += std::log1p(square);
   }
   return cost;
 }

@@ -35,9 +35,10 @@ struct Searched {
 };
 std::vector<Searched> searched_values(const controllers::HoppingConfig& config, bool sides);
 
-/// 20 (1 - mean over the runs of min(hops, enough)/enough) + sum over the quantities of log(1 + d^2), d how
-/// far the mean over all settled hops is from what was published, in units of its tolerance (0 on the right
-/// side of a limit; 30 without a settled hop). Falling costs more than any one quantity.
+/// 20 (1 - mean over the runs of min(hops, enough)/enough) + sum over the quantities of log(1 + mean d^2), d
+/// how far a settled hop is from what was published, in units of its tolerance (0 on the right side of a
+/// limit; 30 without a settled hop). Falling costs more than any one quantity, and a gait that wanders costs
+/// more than a steady one of the same mean.
 double hopping_cost(const controllers::HoppingConfig& config, const std::vector<HopRun>& runs, long enough,
                     const std::vector<Published>& published);
 

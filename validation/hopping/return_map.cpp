@@ -18,9 +18,9 @@ namespace {
 using controllers::HoppingConfig;
 using controllers::HoppingPhase;
 
-constexpr std::size_t kHistory = 15;   // samples, longer than any rate filter
-constexpr std::size_t kAveraged = 10;  // apexes
-constexpr double kSmallest = 1e-3, kSmallestOfContact = 1e-5;
+constexpr std::size_t kHistory = 15;                                   // samples, longer than any rate filter
+constexpr std::size_t kAveraged = 10;                                  // apexes
+constexpr double kPosition = 1e-3, kVelocity = 1e-2, kContact = 1e-5;  // smallest steps, SI
 
 /// Follows a simulation sample by sample and finds apexes.
 class ApexFinder {
@@ -170,16 +170,18 @@ class ReturnMap {
   std::optional<double> held_;
 };
 
-/// Scatter of the last apexes, not below the smallest step.
+/// Scatter of the last apexes within what is large against counts and still small for a gait.
 Eigen::VectorXd steps_of(const Eigen::MatrixXd& points, Eigen::Index positions) {
   const Eigen::VectorXd mean = points.rowwise().mean();
-  const Eigen::VectorXd deviation =
+  const Eigen::VectorXd scatter =
       ((points.colwise() - mean).rowwise().squaredNorm() / static_cast<double>(points.cols() - 1))
           .cwiseSqrt();
-  Eigen::VectorXd smallest = Eigen::VectorXd::Constant(points.rows(), kSmallest);
   const Eigen::Index contact = points.rows() - 1 - 2 * positions;
-  smallest.segment(2 * positions, contact).setConstant(kSmallestOfContact);
-  return deviation.cwiseMax(smallest);
+  Eigen::VectorXd smallest(points.rows());
+  smallest << Eigen::VectorXd::Constant(positions, kPosition),
+      Eigen::VectorXd::Constant(positions, kVelocity), Eigen::VectorXd::Constant(contact, kContact),
+      kPosition;
+  return scatter.cwiseMax(smallest).cwiseMin(10.0 * smallest);
 }
 
 }  // namespace

@@ -41,12 +41,12 @@ struct OrbitOptions {
 };
 
 /// The return map u -> P(u) with u = (plant state at the apex, travel counted from the last landing; h_T^d).
-/// The guess is the mean of the last ten apexes of a run; the steps of the differences are the scatter
-/// (standard deviation) of these apexes, and at least 1e-3 (rad, m, rad/s, m/s) or 1e-5 for states of
-/// contact: large against what counts and sampling leave. A deviated state comes with a deviated past: the
-/// controller's rate filters are filled with the orbit's own 15 samples before the apex, moved by the
-/// deviation of position and velocity. Without the update u has no h_T^d, and no travel, of which nothing
-/// depends.
+/// The guess is the mean of the last ten apexes of a run. The steps of the differences are the scatter
+/// (standard deviation) of these apexes, within 1e-3 and 1e-2 for positions and angles, 1e-2 and 1e-1 for
+/// their rates, 1e-5 and 1e-4 for states of contact (SI): large against what counts and sampling leave. A
+/// deviated state comes with a deviated past: the controller's rate filters are filled with the orbit's own
+/// 15 samples before the apex, moved by the deviation of position and velocity. Without the update u has no
+/// h_T^d, and no travel, of which nothing depends.
 Orbit find_orbit(const model::Model& model, const controllers::HoppingConfig& config,
                  const OrbitOptions& options);
 
