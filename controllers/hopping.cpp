@@ -25,6 +25,22 @@ double leg_shape(HoppingPhase phase, bool up, double h_LS, double minus, double 
 
 }  // namespace
 
+const char* to_string(StopSwitch stop) noexcept {
+  switch (stop) {
+    case StopSwitch::none:
+      return "none";
+    case StopSwitch::leg_angle_left:
+      return "leg angle, left";
+    case StopSwitch::leg_shape_left:
+      return "leg shape, left";
+    case StopSwitch::leg_angle_right:
+      return "leg angle, right";
+    case StopSwitch::leg_shape_right:
+      return "leg shape, right";
+  }
+  return "";
+}
+
 Hopping::Hopping(const HoppingConfig& config)
     : config_(validated(config)),
       phases_(config),
@@ -43,6 +59,15 @@ void Hopping::reset() noexcept {
   hip_velocity_ = 0.0;
   h_T_d_ = config_.parameters.h_T0;
   tower_at_landing_ = 0;
+  landed_ = false;
+  power_off_ = StopSwitch::none;
+}
+
+void Hopping::resume(double h_T_d, std::int64_t tower) noexcept {
+  reset();
+  h_T_d_ = h_T_d;
+  tower_at_landing_ = tower;
+  landed_ = true;
 }
 
 double Hopping::time_in_phase() const noexcept {
@@ -53,13 +78,14 @@ long Hopping::hops() const noexcept { return std::max(phases_.landings() - 1, 0L
 
 HoppingTorques Hopping::command(const HoppingSample& sample) noexcept {
   measure(sample);
+  if (power_off_ == StopSwitch::none) power_off_ = stop_switch(sample);
   const HoppingPhase before = phases_.phase();
   const long landings = phases_.landings();
   phases_.update(sample.left_contact, sample.right_contact, hip_velocity_);
   if (phases_.landings() != landings) land(sample.tower);
   refer_leg_angles(before, angle(sample.torso, config_.resolution.torso));
   refer_leg_shapes();
-  return torques();
+  return power_off_ == StopSwitch::none ? torques() : HoppingTorques();
 }
 
 // Equation 1 relative to the torso: q_LA = (q_Th + q_Sh)/2 with q_Sh = q_Th + knee.
@@ -84,11 +110,28 @@ void Hopping::measure(const HoppingSample& sample) noexcept {
   hip_velocity_ = hip_filter_.rate(config_.boom_length * std::sin(pitch));
 }
 
+StopSwitch Hopping::stop_switch(const HoppingSample& sample) const noexcept {
+  const HoppingWorkspace& space = config_.workspace;
+  const auto outside = [](double value, double from, double to) { return value < from || value > to; };
+  const auto angle_outside = [&](const LegCounts& leg) {
+    return outside(leg_angle(leg, LegAngleSource::joints), space.leg_angle_from, space.leg_angle_to);
+  };
+  const auto shape_outside = [&](const LegCounts& leg) {
+    return outside(-0.5 * angle(leg.knee, config_.resolution.knee), space.leg_shape_from, space.leg_shape_to);
+  };
+  if (angle_outside(sample.left)) return StopSwitch::leg_angle_left;
+  if (shape_outside(sample.left)) return StopSwitch::leg_shape_left;
+  if (angle_outside(sample.right)) return StopSwitch::leg_angle_right;
+  if (shape_outside(sample.right)) return StopSwitch::leg_shape_right;
+  return StopSwitch::none;
+}
+
 void Hopping::land(std::int64_t tower_counts) noexcept {
   const HoppingParameters& p = config_.parameters;
   const double travelled = angle(tower_counts - tower_at_landing_, config_.resolution.tower);
   tower_at_landing_ = tower_counts;
-  const bool first = phases_.landings() == 1;
+  const bool first = !landed_;
+  landed_ = true;
   if (first || !p.event_update) return;
   h_T_d_ = p.h_T0 + within(p.K_T * (travelled - p.delta_phi_d), p.delta_h_T_limit);
 }

@@ -37,6 +37,11 @@ struct HoppingVector {
   double mLS_right = 0.0;
 };
 
+/// The switch of a hard stop that turned the power off.
+enum class StopSwitch { none, leg_angle_left, leg_shape_left, leg_angle_right, leg_shape_right };
+/// "leg angle, left" and so on; "none".
+const char* to_string(StopSwitch stop) noexcept;
+
 /// Motor torques, N m, held until the next sample.
 struct HoppingTorques {
   double mLA_left = 0.0;
@@ -62,6 +67,8 @@ struct HoppingTorques {
 /// the addition held within delta_h_T_limit. Travel is backward and delta_phi_d < 0: after too short a hop
 /// the bracket is positive, and with K_T > 0 the torso leans further backward, as the paper wants it.
 ///
+/// When a leg leaves the workspace the power goes off: from that sample on all torques are 0, until reset().
+///
 /// HoppingPhases says when phases change. After construction nothing allocates, blocks or throws.
 class Hopping {
  public:
@@ -72,20 +79,26 @@ class Hopping {
   HoppingTorques command(const HoppingSample& sample) noexcept;
   /// As just constructed.
   void reset() noexcept;
+  /// As just constructed, but as if in flight behind a landing at `tower` counts that left h_T^d at `h_T_d`.
+  void resume(double h_T_d, std::int64_t tower) noexcept;
 
   /// For logs, all as of the last command.
   HoppingPhase phase() const noexcept { return phases_.phase(); }
   double time_in_phase() const noexcept;            ///< s since the transition into it
   long hops() const noexcept;                       ///< k, landings without the first; 0 before that too
   double h_T_d() const noexcept { return h_T_d_; }  ///< h_T^d, rad
-  double hip_velocity() const noexcept { return hip_velocity_; }          ///< upward, m/s
-  const HoppingVector& controlled() const noexcept { return h_; }         ///< h, rad
-  const HoppingVector& rates() const noexcept { return rates_; }          ///< dh/dt, rad/s
-  const HoppingVector& reference() const noexcept { return reference_; }  ///< h_X^ref, rad
+  /// Why the power is off; none while it is on.
+  StopSwitch power_off() const noexcept { return power_off_; }
+  std::int64_t tower_at_landing() const noexcept { return tower_at_landing_; }  ///< counts, of the last one
+  double hip_velocity() const noexcept { return hip_velocity_; }                ///< upward, m/s
+  const HoppingVector& controlled() const noexcept { return h_; }               ///< h, rad
+  const HoppingVector& rates() const noexcept { return rates_; }                ///< dh/dt, rad/s
+  const HoppingVector& reference() const noexcept { return reference_; }        ///< h_X^ref, rad
 
  private:
   double leg_angle(const LegCounts& counts, LegAngleSource source) const noexcept;
   void measure(const HoppingSample& sample) noexcept;
+  StopSwitch stop_switch(const HoppingSample& sample) const noexcept;
   void land(std::int64_t tower_counts) noexcept;
   void refer_leg_angles(HoppingPhase before, double q_T) noexcept;
   void refer_leg_shapes() noexcept;
@@ -99,6 +112,8 @@ class Hopping {
   double hip_velocity_ = 0.0;
   double h_T_d_;
   std::int64_t tower_at_landing_ = 0;
+  bool landed_ = false;  // tower_at_landing_ is one
+  StopSwitch power_off_ = StopSwitch::none;
 };
 
 }  // namespace plumbline::controllers

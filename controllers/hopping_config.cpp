@@ -76,6 +76,11 @@ void validate_times(const HoppingConfig& config) {
   duration(ours.liftoff_time_max, config.period, "liftoff_time_max");
 }
 
+void validate_workspace(const HoppingWorkspace& workspace) {
+  require(workspace.leg_angle_from < workspace.leg_angle_to, "leg_angle_from", "below leg_angle_to");
+  require(workspace.leg_shape_from < workspace.leg_shape_to, "leg_shape_from", "below leg_shape_to");
+}
+
 }  // namespace
 
 void validate(const HoppingConfig& config) {
@@ -88,6 +93,7 @@ void validate(const HoppingConfig& config) {
   positive(config.torque_limit_mLS, "torque_limit_mLS");
   validate_resolutions(config.resolution);
   validate_times(config);
+  validate_workspace(config.workspace);
 }
 
 }  // namespace plumbline::controllers

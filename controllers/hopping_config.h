@@ -7,6 +7,8 @@
 // the paper has pi there. Nothing here has a default that a robot could run with: values live in robots/.
 #pragma once
 
+#include <limits>
+
 #include "controllers/rate_filter.h"
 
 namespace plumbline::controllers {
@@ -69,6 +71,15 @@ struct HoppingSupplements {
   double liftoff_time_max = 0.0;    ///< IVa, IVb fall back to I when the second foot stays down; 0: never
 };
 
+/// Where the switches of the hard stops close (the paper's section Sensors: the computer then turns the
+/// robot's power off at once). Read at the joints' encoders; infinite: no switch.
+struct HoppingWorkspace {
+  double leg_angle_from = -std::numeric_limits<double>::infinity();  ///< rad
+  double leg_angle_to = std::numeric_limits<double>::infinity();     ///< rad
+  double leg_shape_from = -std::numeric_limits<double>::infinity();  ///< rad
+  double leg_shape_to = std::numeric_limits<double>::infinity();     ///< rad
+};
+
 /// Everything that a Hopping is made of.
 struct HoppingConfig {
   double period = 0.0;       ///< T between samples, s, > 0
@@ -85,6 +96,7 @@ struct HoppingConfig {
   RateFilterOptions leg_shape_filter;                      ///< gives q_mLS's derivative
   RateFilterOptions hip_filter;                            ///< gives the hip's vertical velocity of S8
   HoppingSupplements supplements;
+  HoppingWorkspace workspace;
 };
 
 /// Throws std::invalid_argument naming the value that is not finite or outside the range given with it. The

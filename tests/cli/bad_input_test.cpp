@@ -456,5 +456,30 @@ INSTANTIATE_TEST_SUITE_P(
                  {"--experiment: found no --model, expected"}}),
     name_of);
 
+INSTANTIATE_TEST_SUITE_P(
+    Validation, BadInputs,
+    testing::Values(
+        BadInput{"no_such_robot",
+                 {},
+                 {"validate", "robots/none", "--json", "out.json"},
+                 {"robots/none", "folder"}},
+        BadInput{"nothing_published", {}, {"validate", "robot", "--json", "out.json"}, {"published.yaml"}},
+        BadInput{"published_without_a_measure",
+                 {{"robot/published.yaml", "",
+                   "plumbline: published/1\nquantities:\n  - {name: x, measure: speed}\n"}},
+                 {"validate", "robot", "--json", "out.json"},
+                 {"published.yaml:3", "measure", "speed"}},
+        BadInput{"validation_below_a_file",
+                 {},
+                 {"validate", "robot", "--json", "robot/model.yaml/out.json"},
+                 {"robot/model.yaml/out.json"}},
+        BadInput{"too_few_hops_to_settle", {}, {"validate", "robot", "--enough", "3"}, {"--enough"}},
+        BadInput{"search_for_nothing", {}, {"hop", kModel, "none.yaml", "--search", "10"}, {"--published"}},
+        BadInput{"platform_without_height",
+                 {},
+                 {"hop", kModel, "none.yaml", "--platform", "1", "2"},
+                 {"--platform"}}),
+    name_of);
+
 }  // namespace
 }  // namespace plumbline::test

@@ -72,6 +72,8 @@ TEST(HoppingConfig, RangesAreKept) {
       [](HoppingConfig& c) { c.supplements.bounce_time = std::nan(""); },
       [](HoppingConfig& c) { c.supplements.kickoff_time_max = HUGE_VAL; },
       [](HoppingConfig& c) { c.supplements.liftoff_time_max = -1.0; },
+      [](HoppingConfig& c) { c.workspace.leg_angle_to = c.workspace.leg_angle_from; },
+      [](HoppingConfig& c) { c.workspace.leg_shape_from = std::nan(""); },
   };
   for (std::size_t k = 0; k < wrong.size(); ++k) EXPECT_NE(complaint(wrong[k]), "") << "change " << k;
   EXPECT_EQ(complaint([](HoppingConfig& c) {

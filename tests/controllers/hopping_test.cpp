@@ -364,5 +364,53 @@ TEST(Hopping, RepeatsItselfBitForBit) {
   EXPECT_EQ(std::memcmp(a.data(), c.data(), a.size() * sizeof a[0]), 0);
 }
 
+TEST(HoppingPower, AStopsSwitchTurnsItOffUntilReset) {
+  HoppingConfig config = hopping_example();
+  config.workspace.leg_shape_to = 0.5;
+  config.workspace.leg_angle_from = -1.0;
+  Rig rig(config);
+  rig.run(3, false, false);
+  EXPECT_NE(rig.controller.command(rig.sample).mLS_left, 0.0);
+  rig.sample.right.knee = -330;  // leg shape 165 counts of 2 pi/2048: 0.506 rad
+  const HoppingTorques off = rig.controller.command(rig.sample);
+  EXPECT_EQ(rig.controller.power_off(), StopSwitch::leg_shape_right);
+  EXPECT_STREQ(to_string(rig.controller.power_off()), "leg shape, right");
+  EXPECT_EQ(off.mLA_left, 0.0);
+  EXPECT_EQ(off.mLS_left, 0.0);
+  EXPECT_EQ(off.mLA_right, 0.0);
+  EXPECT_EQ(off.mLS_right, 0.0);
+  rig.sample.right.knee = 0;  // back inside: the power stays off
+  EXPECT_EQ(rig.controller.command(rig.sample).mLS_left, 0.0);
+  rig.controller.reset();
+  EXPECT_EQ(rig.controller.power_off(), StopSwitch::none);
+  EXPECT_NE(rig.controller.command(rig.sample).mLS_left, 0.0);
+  rig.sample.left.thigh = -6500;  // -1.007 rad
+  rig.controller.command(rig.sample);
+  EXPECT_EQ(rig.controller.power_off(), StopSwitch::leg_angle_left);
+}
+
+TEST(HoppingPower, WithoutAWorkspaceThereIsNoSwitch) {
+  Rig rig;
+  rig.sample.left.thigh = 100000;
+  rig.sample.right.knee = -100000;
+  rig.run(3, false, false);
+  EXPECT_EQ(rig.controller.power_off(), StopSwitch::none);
+}
+
+// As if a landing lay behind it: the very next one updates, from the tower and the angle given.
+TEST(HoppingResume, GoesOnInFlight) {
+  const HoppingConfig config = hopping_example();
+  Rig rig(config);
+  rig.controller.resume(0.2, 1000);
+  EXPECT_EQ(rig.phase(), "I");
+  EXPECT_EQ(rig.controller.h_T_d(), 0.2);
+  rig.sample.tower = 1000 - 4000;
+  rig.run(3, false, false);
+  rig.next(true, true);
+  ASSERT_EQ(rig.phase(), "II");
+  const double travelled = -4000 * turn / 295948;
+  EXPECT_NEAR(rig.controller.h_T_d(), 0.140 + 0.5 * (travelled + 0.120), 1e-12);
+}
+
 }  // namespace
 }  // namespace plumbline::controllers

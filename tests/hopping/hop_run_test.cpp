@@ -64,13 +64,82 @@ INSTANTIATE_TEST_SUITE_P(Mabel, HopFrom, testing::Values("mabel_planar.yaml", "m
                            return std::string(tested.param) == "mabel.yaml" ? "boom" : "plane";
                          });
 
-TEST(HopRunTest, WithoutTorqueItFallsAndSaysHow) {
+TEST(HopRunTest, WithoutTorqueItFallsAndSaysHowAndWhen) {
   controllers::HoppingConfig config = controller();
   config.torque_limit_mLA = 1e-6;
   config.torque_limit_mLS = 1e-6;
+  config.workspace = {};
   const HopRun run = hop(mabel("mabel_planar.yaml"), config, {}, HopOptions());
   EXPECT_TRUE(run.fell);
-  EXPECT_THAT(run.end, testing::AnyOf(testing::HasSubstr("fell"), testing::HasSubstr("stays in phase")));
+  EXPECT_THAT(run.end,
+              testing::ContainsRegex("fell .*at [0-9.]+ s: the (hip is down|torso has turned over)"));
+  EXPECT_GT(run.time_at_limit, 2.0 * run.time);  // most motors, most of the time
+}
+
+TEST(HopRunTest, TimeAtTheTorquesLimitIsCounted) {
+  HopOptions options;
+  options.hops = 1;
+  options.longest = 0.4;
+  controllers::HoppingConfig config = controller();
+  config.torque_limit_mLA = config.torque_limit_mLS = 1e6;
+  EXPECT_EQ(hop(mabel("mabel_planar.yaml"), config, {}, options).time_at_limit, 0.0);
+}
+
+TEST(HopRunTest, AHardStopsSwitchTurnsThePowerOffForGood) {
+  controllers::HoppingConfig config = controller();
+  config.workspace.leg_shape_to = config.parameters.h_LS_left + 0.02;  // passed when it lands
+  HopOptions options;
+  options.trace = true;
+  const HopRun run = hop(mabel("mabel_planar.yaml"), config, {}, options);
+  EXPECT_TRUE(run.fell);
+  EXPECT_THAT(run.end,
+              testing::ContainsRegex("hard stop's switch closed at [0-9.]+ s .leg shape, .*power off; "));
+  const double off = std::stod(run.end.substr(run.end.find(" at ") + 4));
+  const Column* time = nullptr;
+  for (const Column& column : run.trace.columns) {
+    time = column.name == "t" ? &column : time;
+    if (column.name.rfind("u_", 0) != 0) {
+      continue;
+    }
+    for (Eigen::Index k = 0; k < column.values.size(); ++k) {
+      if (time->values[k] > off - 1e-9) {
+        ASSERT_EQ(column.values[k], 0.0) << column.name << " at " << time->values[k];
+      }
+    }
+  }
+}
+
+TEST(HopRunTest, AGaitThatNeverLeavesTheGroundEnds) {
+  controllers::HoppingConfig config = controller();
+  config.parameters.delta_LS_minus_left = config.parameters.delta_LS_minus_right = 0.0;  // no kickoff
+  config.parameters.delta_LS_plus_left = config.parameters.delta_LS_plus_right = 0.0;
+  config.left.kp_LA = config.right.kp_LA = 1500.0;  // stands
+  config.left.kd_LA = config.right.kd_LA = 80.0;
+  config.left.kp_mLS = config.right.kp_mLS = 10.0;
+  config.left.kd_mLS = config.right.kd_mLS = 0.3;
+  config.parameters.h_T0 = 0.0;
+  HopStart start;
+  start.drop = 0.002;
+  start.speed = 0.0;
+  const HopRun run = hop(mabel("mabel_planar.yaml"), config, start, HopOptions());
+  EXPECT_TRUE(run.fell);
+  EXPECT_THAT(run.end, testing::AnyOf(testing::ContainsRegex("leaves? the ground, on it since [0-9.]+ s"),
+                                      testing::HasSubstr("stays in phase")));
+  EXPECT_LT(run.time, 10.0);
+}
+
+TEST(HopRunTest, APlatformInsideAFootAtTheStartIsRefused) {
+  HopOptions options;
+  options.hops = 1;
+  options.terrain = contact::Terrain(0.0, {{0.1, 0.5, 0.15}});  // under the right foot, which is in front
+  try {
+    hop(mabel("mabel_planar.yaml"), controller(), {}, options);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("right foot"), testing::HasSubstr("inside")));
+  }
+  options.terrain = contact::Terrain(0.0, {{5.0, 6.0, 0.15}});
+  EXPECT_NO_THROW(hop(mabel("mabel_planar.yaml"), controller(), {}, options));
 }
 
 TEST(HopRunTest, AnIntegratorThatGivesUpIsQuotedAndTheTraceKept) {

@@ -1,5 +1,9 @@
 #include <fmt/core.h>
 
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -10,6 +14,7 @@
 #include "validation/cli/output.h"
 #include "validation/hopping/hop_search.h"
 #include "validation/hopping/hopping_file.h"
+#include "validation/hopping/published.h"
 
 namespace plumbline::cli {
 namespace {
@@ -29,6 +34,10 @@ struct Options {
   std::uint64_t seed = 1;
   bool no_update = false;
   int search = 0;
+  std::string published;
+  bool sides = false;
+  double width = 0.4;
+  std::vector<std::array<double, 3>> platforms;
 };
 
 nlohmann::json to_json(const HopRun& run) {
@@ -42,6 +51,7 @@ nlohmann::json to_json(const HopRun& run) {
                     {"touchdown_gap", hop.touchdown_gap},
                     {"largest_torque_mLA", hop.largest_torque_mLA},
                     {"largest_torque_mLS", hop.largest_torque_mLS},
+                    {"time_at_limit", hop.time_at_limit},
                     {"largest_stretch_LA", hop.largest_stretch_LA},
                     {"largest_stretch_LS", hop.largest_stretch_LS},
                     {"lowest_hip", hop.lowest_hip},
@@ -51,6 +61,7 @@ nlohmann::json to_json(const HopRun& run) {
           {"time", run.time},
           {"fell", run.fell},
           {"end", run.end},
+          {"time_at_limit", run.time_at_limit},
           {"steps", run.summary.steps},
           {"rate_evaluations", run.summary.rate_evaluations},
           {"wall_time_per_simulated_second", run.time > 0.0 ? run.seconds / run.time : 0.0}};
@@ -67,7 +78,8 @@ nlohmann::json to_json(const HopStatistics& s) {
           {"stretch_LA", s.stretch_LA},
           {"stretch_LS", s.stretch_LS},
           {"torque_mLA", s.torque_mLA},
-          {"torque_mLS", s.torque_mLS}};
+          {"torque_mLS", s.torque_mLS},
+          {"time_at_limit", s.time_at_limit}};
 }
 
 void print(const HopRun& run) {
@@ -84,14 +96,17 @@ void print(const HopRun& run) {
   print_table({"hop", "landing s", "period s", "travel m", "torso deg", "gap ms", "torque LA LS N m",
                "stretch LA LS deg"},
               rows);
-  fmt::print("\n{} hops in {:.3f} s{}{}. {:.3g} s of computing for each simulated second.\n", run.hops.size(),
-             run.time, run.fell ? "; " : "", run.end, run.time > 0.0 ? run.seconds / run.time : 0.0);
+  fmt::print(
+      "\n{} hops in {:.3f} s{}{}. Torque at its limit for {:.0f} ms. {:.3g} s of computing for each "
+      "simulated second.\n",
+      run.hops.size(), run.time, run.fell ? "; " : "", run.end, 1e3 * run.time_at_limit,
+      run.time > 0.0 ? run.seconds / run.time : 0.0);
 }
 
 void print(const HopStatistics& s, long enough) {
   fmt::print("{} of {} starts sustained ({} hops or more); median {:.0f} hops.\n\n", s.sustained, s.starts,
              enough, s.median_hops);
-  print_table({"over the second half of each run", "mean"},
+  print_table({"over the settled hops", "mean"},
               {{"period", fmt::format("{:.3f} s", s.period)},
                {"travel of a hop", fmt::format("{:.3f} m", s.travel)},
                {"torso at landing", fmt::format("{:.1f} deg", s.torso * kDegrees)},
@@ -99,7 +114,8 @@ void print(const HopStatistics& s, long enough) {
                {"largest stretch, leg angle", fmt::format("{:.0f} deg of motor", s.stretch_LA * kDegrees)},
                {"largest stretch, leg shape", fmt::format("{:.0f} deg of motor", s.stretch_LS * kDegrees)},
                {"largest torque, leg angle", fmt::format("{:.1f} N m", s.torque_mLA)},
-               {"largest torque, leg shape", fmt::format("{:.1f} N m", s.torque_mLS)}});
+               {"largest torque, leg shape", fmt::format("{:.1f} N m", s.torque_mLS)},
+               {"torque at its limit, all motors", fmt::format("{:.1f} ms", 1e3 * s.time_at_limit)}});
 }
 
 void run_once(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
@@ -134,50 +150,72 @@ void run_many(const Options& options, const model::Model& model, const controlle
   print(statistics, options.enough);
 }
 
+std::vector<std::string> describe(const validation::HopSearchResult& r, bool sides) {
+  const HopStatistics& s = r.statistics;
+  std::vector<std::string> row{fmt::format("{:.3f}", r.cost), fmt::format("{}/{}", s.sustained, s.starts)};
+  for (const validation::Searched& searched : validation::searched_values(r.config, sides)) {
+    row.push_back(fmt::format("{:.4g}", searched.value));
+  }
+  row.push_back(fmt::format("{:.3f}", s.travel));
+  row.push_back(fmt::format("{:.1f}", s.torso * kDegrees));
+  row.push_back(fmt::format("{:.0f}", 1e3 * s.touchdown_gap));
+  row.push_back(fmt::format("{:.0f}", std::max(s.stretch_LA, s.stretch_LS) * kDegrees));
+  return row;
+}
+
+std::vector<std::string> search_head(const controllers::HoppingConfig& config, bool sides) {
+  std::vector<std::string> head{"cost", "sustained"};
+  for (const validation::Searched& searched : validation::searched_values(config, sides)) {
+    head.push_back(searched.name);
+  }
+  for (const char* name : {"travel m", "torso deg", "gap ms", "stretch deg"}) {
+    head.emplace_back(name);
+  }
+  return head;
+}
+
+/// A row at once: a search takes long, and may be stopped.
+void print_now(const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) {
+    fmt::print("  {:>9}", cell);
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
 void run_search(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
   validation::HopSearchOptions search;
   search.trials = options.search;
-  search.starts = std::max(options.starts, 4);
+  search.starts = std::max(options.starts, 2);
   search.hops = options.run.hops;
   search.seed = options.seed;
+  search.sides = options.sides;
+  search.width = options.width;
   search.run = options.run;
-  const auto describe = [](const validation::HopSearchResult& r) {
-    const controllers::HoppingLegGains& g = r.config.left;
-    return std::vector<std::string>{
-        fmt::format("{:.3f}", r.score),
-        fmt::format("{}/{}", r.statistics.sustained, r.statistics.starts),
-        fmt::format("{:.4g}", g.kp_LA),
-        fmt::format("{:.4g}", g.kd_LA),
-        fmt::format("{:.4g}", g.kp_mLS),
-        fmt::format("{:.4g}", g.kd_mLS),
-        fmt::format("{:.4g}", r.config.parameters.K_T),
-        fmt::format("{} {}", r.config.leg_angle_filter.samples, r.config.leg_shape_filter.samples),
-        fmt::format("{:.3f}", r.statistics.travel),
-        fmt::format("{:.1f}", r.statistics.torso * kDegrees)};
-  };
-  ProgressLine line;
-  const validation::Progress show = line.callback();
-  std::vector<std::vector<std::string>> rows;
+  search.published = validation::read_published(options.published);
+  print_now(search_head(config, options.sides));
   const validation::HopSearchResult best = validation::search_gains(
-      model, config, search, [&](int trial, const validation::HopSearchResult& result) {
-        rows.push_back(describe(result));
-        show("gain sets", static_cast<double>(trial + 1) / search.trials);
-      });
-  rows.push_back(describe(best));
-  print_table(
-      {"score", "sustained", "kp_LA", "kd_LA", "kp_mLS", "kd_mLS", "K_T", "samples", "travel m", "torso deg"},
-      rows);
-  fmt::print("\nThe last line repeats the best.\n");
-  write_json({{"score", best.score},
-              {"kp_LA", best.config.left.kp_LA},
-              {"kd_LA", best.config.left.kd_LA},
-              {"kp_mLS", best.config.left.kp_mLS},
-              {"kd_mLS", best.config.left.kd_mLS},
-              {"K_T", best.config.parameters.K_T},
-              {"leg_angle_samples", best.config.leg_angle_filter.samples},
-              {"leg_shape_samples", best.config.leg_shape_filter.samples},
-              {"statistics", to_json(best.statistics)}},
-             options.json);
+      model, config, search,
+      [&](int, const validation::HopSearchResult& result) { print_now(describe(result, options.sides)); });
+  fmt::print("\nThe best:\n");
+  print_now(describe(best, options.sides));
+  nlohmann::json json{{"cost", best.cost}, {"statistics", to_json(best.statistics)}};
+  for (const validation::Searched& searched : validation::searched_values(best.config, options.sides)) {
+    json["gains"][searched.name] = searched.value;
+  }
+  write_json(json, options.json);
+}
+
+contact::Terrain terrain_of(const Options& options) {
+  std::vector<contact::Platform> platforms;
+  for (const auto& [from, to, height] : options.platforms) {
+    platforms.push_back({from, to, height});
+  }
+  try {
+    return contact::Terrain(0.0, platforms);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("--platform: ") + error.what());
+  }
 }
 
 void run(Options options) {
@@ -187,12 +225,16 @@ void run(Options options) {
   if (!options.out.empty() && (options.starts > 1 || options.search > 0)) {
     throw InputError({"", 0, "--out"}, "more than one run", "a single run for a trace");
   }
+  if (options.search > 0 && options.published.empty()) {
+    throw InputError({"", 0, "--search"}, "no --published", "the file of published values to search for");
+  }
   const model::Model model = model::read_model(options.model, model::known_effects());
   controllers::HoppingConfig config = validation::read_hopping(options.controller);
   config.parameters.event_update = config.parameters.event_update && !options.no_update;
   integrate::Options& integrator = options.run.integrator;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
   options.run.stop = &stop_flag();
+  options.run.terrain = terrain_of(options);
   if (options.search > 0) {
     run_search(options, model, config);
   } else if (options.starts > 1) {
@@ -233,6 +275,17 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("--enough", options->enough, "hops that count as sustained")->capture_default_str();
   command->add_option("--search", options->search, "look for gains, trying so many sets")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--platform", options->platforms,
+                   "a step in the ground: from and to along the way, height, m (again for more)")
+      ->type_name("FROM TO HEIGHT");
+  command->add_option("--published", options->published, "with --search: what the gait is held against")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
+  command->add_flag("--sides", options->sides, "with --search: left and right may have different gains");
+  command->add_option("--width", options->width, "with --search: first standard deviation, in the logarithm")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 2.0));
   command->add_option("--seed", options->seed, "seed of starts and search")->capture_default_str();
   command
       ->add_option("--tolerance", options->run.integrator.relative_tolerance,

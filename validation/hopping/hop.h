@@ -12,6 +12,7 @@ struct Hop {
   double torso_wanted = 0.0;   ///< h_T^d from the landing on, rad
   double touchdown_gap = 0.0;  ///< between the two feet's contact at this landing, s
   double largest_torque_mLA = 0.0, largest_torque_mLS = 0.0;  ///< N m
+  double time_at_limit = 0.0;  ///< summed over the motors, that a command is at its limit, s
   double largest_stretch_LA = 0.0, largest_stretch_LS = 0.0;  ///< |c(q)| of equation 23, rad of motor
   double lowest_hip = 0.0, highest_hip = 0.0;                 ///< above a level boom, m
 };

@@ -17,10 +17,16 @@ void HopCounter::feet(double t, const std::vector<model::Touch>& touches) {
 
 void HopCounter::load(const controllers::HoppingTorques& torques, double stretch_LA, double stretch_LS) {
   const auto raise = [](double& most, double value) { most = std::max(most, std::abs(value)); };
-  raise(now_.largest_torque_mLA, torques.mLA_left);
-  raise(now_.largest_torque_mLA, torques.mLA_right);
-  raise(now_.largest_torque_mLS, torques.mLS_left);
-  raise(now_.largest_torque_mLS, torques.mLS_right);
+  const auto motor = [&](double& most, double torque, double limit) {
+    raise(most, torque);
+    const double spent = std::abs(torque) >= limit ? config_.period : 0.0;
+    now_.time_at_limit += spent;
+    time_at_limit_ += spent;
+  };
+  motor(now_.largest_torque_mLA, torques.mLA_left, config_.torque_limit_mLA);
+  motor(now_.largest_torque_mLA, torques.mLA_right, config_.torque_limit_mLA);
+  motor(now_.largest_torque_mLS, torques.mLS_left, config_.torque_limit_mLS);
+  motor(now_.largest_torque_mLS, torques.mLS_right, config_.torque_limit_mLS);
   raise(now_.largest_stretch_LA, stretch_LA);
   raise(now_.largest_stretch_LS, stretch_LS);
 }

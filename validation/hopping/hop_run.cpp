@@ -5,18 +5,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "simulator/integrate/plant_ode.h"
 #include "simulator/trace/error.h"
 #include "validation/hopping/hop_counter.h"
 #include "validation/hopping/hop_recorder.h"
-#include "validation/hopping/hopping_loop.h"
+#include "validation/hopping/hop_simulation.h"
+#include "validation/hopping/hop_watchdog.h"
 
 namespace plumbline::validation {
 namespace {
-
-constexpr double kLowestHip = -0.5;    // m, against a level boom at 1 m
-constexpr double kLargestTorso = 1.0;  // rad
-constexpr double kLongestPhase = 1.5;  // s
 
 /// The larger |c(q)| of both legs (Park et al. equation 23), rad of motor.
 double stretch(const model::Plant& plant, const std::string& ratio, const Eigen::VectorXd& x) {
@@ -30,21 +26,77 @@ double stretch(const model::Plant& plant, const std::string& ratio, const Eigen:
   return most;
 }
 
-std::string fall(const HipWatch& watch, const Eigen::VectorXd& y, const controllers::Hopping& controller) {
-  if (!y.allFinite()) {
-    return "the state is not finite";
+/// Above the floor, whatever stands there: a platform that reaches a foot is refused.
+Eigen::VectorXd place(const model::Model& model, const controllers::HoppingConfig& config,
+                      const HopStart& start, const HopOptions& options, HopSimulation& simulation) {
+  model::Plant flat(model, {}, contact::Terrain(options.terrain.floor()));
+  const Eigen::VectorXd state = start_state(flat, config, start);
+  const std::vector<model::Touch> touches = simulation.plant().touches(state.data());
+  for (std::size_t f = 0; f < touches.size(); ++f) {
+    if (touches[f].depth > 0.0) {
+      throw InputError({model.file, 0, "platform"},
+                       "the " + model.feet[f].name + " foot " + std::to_string(touches[f].depth) +
+                           " m inside the terrain at the start",
+                       "terrain below the feet; start higher or elsewhere");
+    }
   }
-  if (watch.height(y) < kLowestHip) {
-    return "fell: the hip is down";
+  return state;
+}
+
+/// One sample's record; true when the run is over.
+class Account {
+ public:
+  Account(const model::Model& model, const controllers::HoppingConfig& config, const HopOptions& options,
+          HopRun& run)
+      : options_(options),
+        run_(run),
+        watch_(model, config),
+        counter_(watch_, config, run.hops),
+        watchdog_(watch_),
+        recorder_(model) {}
+
+  bool over(const HopSimulation& s) {
+    const Eigen::VectorXd x = s.state();
+    run_.time = s.time();
+    counter_.feet(run_.time, s.touches());
+    counter_.load(s.loop().torques(), stretch(s.plant(), "leg_angle", x), stretch(s.plant(), "leg_shape", x));
+    counter_.sample(run_.time, s.outputs(), s.loop().controller());
+    if (options_.trace) {
+      recorder_.row(run_.time, s.outputs(), s.command(), s.touches(), s.loop().controller());
+    }
+    run_.end = watchdog_.look(s);
+    run_.fell = !run_.end.empty();
+    return run_.fell || static_cast<long>(run_.hops.size()) >= options_.hops || run_.time >= options_.longest;
   }
-  if (std::abs(watch.torso(y)) > kLargestTorso) {
-    return std::string("fell ") + (watch.torso(y) > 0.0 ? "backward" : "forward") +
-           ": the torso has turned over";
+
+  void finish(const HopSimulation& simulation) {
+    run_.time_at_limit = counter_.time_at_limit();
+    run_.summary = simulation.summary();
+    if (options_.trace) {
+      run_.trace = recorder_.table();
+    }
   }
-  if (controller.time_in_phase() > kLongestPhase) {
-    return std::string("stays in phase ") + to_string(controller.phase());
+
+ private:
+  const HopOptions& options_;
+  HopRun& run_;
+  HipWatch watch_;
+  HopCounter counter_;
+  HopWatchdog watchdog_;
+  HopRecorder recorder_;
+};
+
+void go(HopSimulation& simulation, const HopOptions& options, Account& account) {
+  for (;;) {
+    if (options.stop != nullptr && options.stop->raised) {
+      throw Stopped();
+    }
+    simulation.sample();
+    if (account.over(simulation)) {
+      return;
+    }
+    simulation.advance();
   }
-  return "";
 }
 
 }  // namespace
@@ -59,43 +111,13 @@ HopOptions::HopOptions() {
 
 HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, const HopStart& start,
            const HopOptions& options) {
-  model::Plant plant(model, {});
-  HoppingLoop loop(model, config);
-  const HipWatch watch(model, config);
+  HopSimulation simulation(model, config, options.integrator, options.terrain);
+  simulation.start(place(model, config, start, options, simulation));
   HopRun run;
-  HopCounter counter(watch, run.hops);
-  HopRecorder recorder(model);
-  integrate::PlantOde ode(plant, false, false);
-  integrate::Integrator integrator(ode, options.integrator);
-  integrator.start(0.0, start_state(plant, config, start));
-  Eigen::VectorXd y(plant.sensors());
-  Eigen::VectorXd command = Eigen::VectorXd::Zero(plant.motors());
+  Account account(model, config, options, run);
   const auto begin = std::chrono::steady_clock::now();
   try {
-    for (long k = 0;; ++k) {
-      if (options.stop != nullptr && options.stop->raised) {
-        throw Stopped();
-      }
-      run.time = static_cast<double>(k) * config.period;
-      const Eigen::VectorXd& x = integrator.state();
-      plant.outputs(x.data(), y.data());
-      const std::vector<model::Touch> touches = plant.touches(x.data());
-      loop.command(y, touches, command.data());
-      counter.feet(run.time, touches);
-      counter.load(loop.torques(), stretch(plant, "leg_angle", x), stretch(plant, "leg_shape", x));
-      counter.sample(run.time, y, loop.controller());
-      if (options.trace) {
-        recorder.row(run.time, y, command, touches, loop.controller());
-      }
-      run.end = fall(watch, y, loop.controller());
-      run.fell = !run.end.empty();
-      if (run.fell || static_cast<long>(run.hops.size()) >= options.hops || run.time >= options.longest) {
-        break;
-      }
-      std::copy(command.data(), command.data() + command.size(), ode.command());
-      integrator.input_changed(true);
-      integrator.advance(static_cast<double>(k + 1) * config.period);
-    }
+    go(simulation, options, account);
   } catch (const Stopped&) {
     throw;
   } catch (const InputError&) {
@@ -108,10 +130,7 @@ HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, 
     }
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  run.summary = integrator.summary();
-  if (options.trace) {
-    run.trace = recorder.table();
-  }
+  account.finish(simulation);
   return run;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/terrain.h"
 #include "controllers/hopping_config.h"
 #include "simulator/integrate/integrator.h"
 #include "simulator/model/model.h"
@@ -18,6 +19,7 @@ struct HopOptions {
   long hops = 100;         ///< enough
   double longest = 120.0;  ///< s, whatever happens
   integrate::Options integrator;
+  contact::Terrain terrain;        ///< level ground at 0 m unless set
   bool trace = false;              ///< keep every sample
   const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown
   HopOptions();
@@ -27,16 +29,16 @@ struct HopRun {
   std::vector<Hop> hops;
   double time = 0.0;  ///< simulated, s
   bool fell = false;
-  std::string end;  ///< how it ended, for people
+  std::string end;             ///< how and when it fell, for people; empty when it did not
+  double time_at_limit = 0.0;  ///< summed over the motors, that a command was at its limit, s
   integrate::Summary summary;
   double seconds = 0.0;  ///< wall time
   Table trace;
 };
 
-/// Simulates `model` under the hopping controller, one sample of the controller at a time. The robot has
-/// fallen when its hip is below half its height, its torso has turned by more than 1 rad, or it stays in one
-/// phase for longer than 1.5 s (a gait that never leaves the ground). When the integrator gives up, the run
-/// ends there and `end` says why. Throws InputError for a model that cannot hop.
+/// Simulates `model` under the hopping controller, one sample of the controller at a time, until it has
+/// hopped enough or the HopWatchdog ends it. When the integrator gives up, the run ends there and `end` says
+/// why. Throws InputError for a model that cannot hop, and when the terrain reaches a foot at the start.
 HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, const HopStart& start,
            const HopOptions& options);
 

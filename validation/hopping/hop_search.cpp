@@ -2,79 +2,119 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+
+#include "validation/hopping/cma_search.h"
 
 namespace plumbline::validation {
 namespace {
 
 using controllers::HoppingConfig;
 
-/// What is searched, each a positive number moved by a factor.
-void multiply(HoppingConfig& config, const Eigen::VectorXd& factors) {
-  for (controllers::HoppingLegGains* gains : {&config.left, &config.right}) {
-    gains->kp_LA *= factors[0];
-    gains->kd_LA *= factors[1];
-    gains->kp_mLS *= factors[2];
-    gains->kd_mLS *= factors[3];
-  }
-  config.parameters.K_T *= factors[4];
-  const auto length = [](int samples, double factor) {
-    const double most = 12.0;  // longer ones are late by more than the legs' own motion allows
-    return static_cast<int>(std::lround(std::clamp(samples * factor, 2.0, most)));
-  };
-  config.leg_angle_filter.samples = length(config.leg_angle_filter.samples, factors[5]);
-  config.leg_shape_filter.samples = length(config.leg_shape_filter.samples, factors[6]);
+constexpr double kFallCosts = 20.0;
+constexpr double kNoHop = 30.0;  // deviation of a robot without a settled hop, in tolerances
+constexpr double kShortest = 2.0,
+                 kLongest = 12.0;  // samples; longer is later than the legs' own motion allows
+
+std::vector<Searched> leg_values(const controllers::HoppingLegGains& gains, const std::string& side) {
+  return {{"kp_LA" + side, gains.kp_LA},
+          {"kd_LA" + side, gains.kd_LA},
+          {"kp_mLS" + side, gains.kp_mLS},
+          {"kd_mLS" + side, gains.kd_mLS}};
 }
-constexpr int kSearched = 7;
 
-constexpr double kAnyGait = 0.1;  // what it is worth to hop on in another way, in place say
-constexpr double kOff = 0.5;      // relative: a gait as far off as this is hardly the paper's
+void multiply_gains(controllers::HoppingLegGains& gains, const Eigen::VectorXd& factors, Eigen::Index first) {
+  gains.kp_LA *= factors[first];
+  gains.kd_LA *= factors[first + 1];
+  gains.kp_mLS *= factors[first + 2];
+  gains.kd_mLS *= factors[first + 3];
+}
 
-double score_of(const HoppingConfig& config, const std::vector<HopRun>& runs, const HopStatistics& statistics,
-                long enough) {
-  double score = 0.0;
-  for (const HopRun& run : runs) {
-    score += std::min(1.0, static_cast<double>(run.hops.size()) / static_cast<double>(enough)) /
-             static_cast<double>(runs.size());
+/// In the order of searched_values.
+HoppingConfig multiply(HoppingConfig config, const Eigen::VectorXd& factors, bool sides) {
+  multiply_gains(config.left, factors, 0);
+  multiply_gains(config.right, factors, sides ? 4 : 0);
+  const Eigen::Index next = sides ? 8 : 4;
+  config.parameters.K_T *= factors[next];
+  const auto length = [](int samples, double factor) {
+    return static_cast<int>(std::lround(std::clamp(samples * factor, kShortest, kLongest)));
+  };
+  config.leg_angle_filter.samples = length(config.leg_angle_filter.samples, factors[next + 1]);
+  config.leg_shape_filter.samples = length(config.leg_shape_filter.samples, factors[next + 2]);
+  return config;
+}
+
+/// One generation: every set from every start, all on all cores.
+std::vector<HopSearchResult> try_all(const model::Model& model, const std::vector<HoppingConfig>& sets,
+                                     const std::vector<HopStart>& starts, const HopSearchOptions& options) {
+  HopOptions run = options.run;
+  run.hops = options.hops;
+  const std::vector<std::vector<HopRun>> runs = hop_all(model, sets, starts, run);
+  std::vector<HopSearchResult> results(sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    results[s] = {sets[s], hopping_cost(sets[s], runs[s], options.hops, options.published),
+                  statistics_of(runs[s], options.hops)};
   }
-  const controllers::HoppingParameters& p = config.parameters;
-  const double wanted = config.boom_length * p.delta_phi_d;
-  const double travel = (statistics.travel - wanted) / wanted;
-  const double lean = (statistics.torso - p.h_T0) / p.h_T0;
-  return score * (kAnyGait + std::exp(-0.5 * (travel * travel + lean * lean) / (kOff * kOff)));
+  return results;
 }
 
 }  // namespace
 
+std::vector<Searched> searched_values(const HoppingConfig& config, bool sides) {
+  std::vector<Searched> all = leg_values(config.left, sides ? "_left" : "");
+  if (sides) {
+    const std::vector<Searched> right = leg_values(config.right, "_right");
+    all.insert(all.end(), right.begin(), right.end());
+  }
+  all.push_back({"K_T", config.parameters.K_T});
+  all.push_back({"leg_angle_samples", static_cast<double>(config.leg_angle_filter.samples)});
+  all.push_back({"leg_shape_samples", static_cast<double>(config.leg_shape_filter.samples)});
+  return all;
+}
+
+double hopping_cost(const HoppingConfig& config, const std::vector<HopRun>& runs, long enough,
+                    const std::vector<Published>& published) {
+  double missing = 0.0;
+  for (const HopRun& run : runs) {
+    missing += 1.0 - std::min(1.0, static_cast<double>(run.hops.size()) / static_cast<double>(enough));
+  }
+  double cost = kFallCosts * missing / static_cast<double>(runs.size());
+  const std::vector<Hop> hops = settled_hops(runs);
+  for (const Published& quantity : published) {
+    if (quantity.measure->kind != Measure::Kind::of_a_hop) {
+      continue;
+    }
+    double square = hops.empty() ? kNoHop * kNoHop : 0.0;
+    for (const Hop& hop : hops) {
+      const double off = quantity.deviation(measure_of(*quantity.measure, hop, config));
+      square += off * off / static_cast<double>(hops.size());
+    }
+    cost += std::log1p(square);
+  }
+  return cost;
+}
+
 HopSearchResult search_gains(const model::Model& model, const HoppingConfig& around,
                              const HopSearchOptions& options,
                              const std::function<void(int, const HopSearchResult&)>& progress) {
-  std::mt19937_64 random(options.seed);
-  std::uniform_real_distribution<double> even(-std::log(4.0), std::log(4.0));
-  std::normal_distribution<double> normal;
-  HopOptions run = options.run;
-  run.hops = options.hops;
   const std::vector<HopStart> starts = draw_starts(options.starts, options.seed);
-  Eigen::VectorXd best_at = Eigen::VectorXd::Zero(kSearched);
-  HopSearchResult best;
-  for (int trial = 0; trial < options.trials; ++trial) {
-    const bool wide = 3 * trial < options.trials;
-    const double width = 0.5 * std::pow(0.1, std::max(0.0, 1.5 * trial / options.trials - 0.5));
-    Eigen::VectorXd at = best_at;
-    for (Eigen::Index i = 0; trial > 0 && i < kSearched; ++i) {
-      at[i] = wide ? even(random) : best_at[i] + width * normal(random);
+  const auto size = static_cast<Eigen::Index>(searched_values(around, options.sides).size());
+  CmaSearch search(Eigen::VectorXd::Zero(size), options.width, 0, options.seed);
+  HopSearchResult best = try_all(model, {around}, starts, options).front();
+  progress(0, best);
+  for (int trial = 1; trial < options.trials; trial += search.population()) {
+    const Eigen::MatrixXd candidates = search.ask();
+    std::vector<HoppingConfig> sets;
+    for (const auto& candidate : candidates.colwise()) {
+      sets.push_back(multiply(around, candidate.array().exp(), options.sides));
     }
-    HopSearchResult result;
-    result.config = around;
-    multiply(result.config, at.array().exp());
-    const std::vector<HopRun> runs = hop_from(model, result.config, starts, run);
-    result.statistics = statistics_of(runs, options.hops);
-    result.score = score_of(result.config, runs, result.statistics, options.hops);
-    progress(trial, result);
-    if (trial == 0 || result.score > best.score) {
-      best = result;
-      best_at = at;
+    const std::vector<HopSearchResult> results = try_all(model, sets, starts, options);
+    Eigen::VectorXd costs(candidates.cols());
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      costs[static_cast<Eigen::Index>(k)] = results[k].cost;
+      best = results[k].cost < best.cost ? results[k] : best;
+      progress(trial + static_cast<int>(k), results[k]);
     }
+    search.tell(costs);
   }
   return best;
 }

@@ -3,31 +3,48 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "validation/hopping/hop_statistics.h"
+#include "validation/hopping/published.h"
 
 namespace plumbline::validation {
 
 struct HopSearchOptions {
-  int trials = 60;  ///< gain sets tried
-  int starts = 8;   ///< runs for each
-  long hops = 40;   ///< enough
+  int trials = 60;     ///< gain sets tried
+  int starts = 8;      ///< runs for each
+  long hops = 40;      ///< enough
+  double width = 0.4;  ///< standard deviation of the first sets, in the logarithm
+  bool sides = false;  ///< left and right leg may have different gains
   std::uint64_t seed = 1;
   HopOptions run;
+  std::vector<Published> published;  ///< those measured hop by hop count in the cost
 };
 
 struct HopSearchResult {
   controllers::HoppingConfig config;
-  double score = 0.0;
+  double cost = 0.0;
   HopStatistics statistics;
 };
 
-/// Looks for kp and kd of leg angle and leg shape (the same on both sides), K_T, and the lengths of their
-/// rate filters that keep the robot hopping: the first third of the trials is drawn evenly in the logarithm
-/// over a factor of four to either side of `around`, the rest normally about the best so far with a width
-/// that shrinks. Score: mean over the starts of min(hops, enough)/enough, times 0.1 and up to one more for a
-/// travel and a lean near those that the controller is asked for: a robot that bounces in place is not the
-/// gait that is looked for. Deterministic for a seed. `progress` is told of each trial and its result.
+/// A number that is searched, positive, as the controller's file names it.
+struct Searched {
+  std::string name;
+  double value = 0.0;
+};
+std::vector<Searched> searched_values(const controllers::HoppingConfig& config, bool sides);
+
+/// 20 (1 - mean over the runs of min(hops, enough)/enough) + sum over the quantities of log(1 + mean d^2), d
+/// how far a settled hop is from what was published, in units of its tolerance (0 on the right side of a
+/// limit; 30 without a settled hop). Falling costs more than any one quantity, and a gait that wanders costs
+/// more than a steady one of the same mean.
+double hopping_cost(const controllers::HoppingConfig& config, const std::vector<HopRun>& runs, long enough,
+                    const std::vector<Published>& published);
+
+/// Looks for kp and kd of leg angle and leg shape, K_T, and the lengths of their rate filters (2 to 12
+/// samples), in the logarithm about `around`, by CmaSearch on hopping_cost. Returns the cheapest set that was
+/// tried. Deterministic for a seed. `progress` is told of each set in its order.
 HopSearchResult search_gains(const model::Model& model, const controllers::HoppingConfig& around,
                              const HopSearchOptions& options,
                              const std::function<void(int, const HopSearchResult&)>& progress);

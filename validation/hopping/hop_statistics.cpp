@@ -5,6 +5,7 @@
 #include <random>
 #include <thread>
 
+#include "validation/hopping/measures.h"
 #include "validation/predict/problem.h"
 
 namespace plumbline::validation {
@@ -23,15 +24,17 @@ std::vector<HopStart> draw_starts(int count, std::uint64_t seed) {
   return starts;
 }
 
-std::vector<HopRun> hop_from(const model::Model& model, const controllers::HoppingConfig& config,
-                             const std::vector<HopStart>& starts, const HopOptions& options,
-                             const std::function<void(int)>& progress) {
-  std::vector<HopRun> runs(starts.size());
+std::vector<std::vector<HopRun>> hop_all(const model::Model& model,
+                                         const std::vector<controllers::HoppingConfig>& configs,
+                                         const std::vector<HopStart>& starts, const HopOptions& options,
+                                         const std::function<void(int)>& progress) {
+  std::vector<std::vector<HopRun>> runs(configs.size(), std::vector<HopRun>(starts.size()));
   std::atomic<int> done{0};
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  parallel_for(static_cast<int>(starts.size()), threads, [&](int i) {
+  parallel_for(static_cast<int>(configs.size() * starts.size()), threads, [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    runs[k] = hop(model, config, starts[k], options);
+    const std::size_t config = k / starts.size(), start = k % starts.size();
+    runs[config][start] = hop(model, configs[config], starts[start], options);
     const int count = ++done;
     if (progress) {
       progress(count);
@@ -40,31 +43,32 @@ std::vector<HopRun> hop_from(const model::Model& model, const controllers::Hoppi
   return runs;
 }
 
+std::vector<HopRun> hop_from(const model::Model& model, const controllers::HoppingConfig& config,
+                             const std::vector<HopStart>& starts, const HopOptions& options,
+                             const std::function<void(int)>& progress) {
+  return hop_all(model, {config}, starts, options, progress).front();
+}
+
 HopStatistics statistics_of(const std::vector<HopRun>& runs, long enough) {
   HopStatistics all;
   all.starts = static_cast<int>(runs.size());
   std::vector<double> counts;
-  double hops = 0.0;
   for (const HopRun& run : runs) {
     counts.push_back(static_cast<double>(run.hops.size()));
-    const bool sustained = static_cast<long>(run.hops.size()) >= enough;
-    all.sustained += sustained ? 1 : 0;
-    for (std::size_t h = run.hops.size() / 2; h < run.hops.size(); ++h) {
-      const Hop& hop = run.hops[h];
-      hops += 1.0;
-      all.period += hop.period;
-      all.travel += hop.travel;
-      all.torso += hop.torso;
-      all.touchdown_gap += hop.touchdown_gap;
-      all.stretch_LA += hop.largest_stretch_LA;
-      all.stretch_LS += hop.largest_stretch_LS;
-      all.torque_mLA += hop.largest_torque_mLA;
-      all.torque_mLS += hop.largest_torque_mLS;
-    }
+    all.sustained += static_cast<long>(run.hops.size()) >= enough ? 1 : 0;
   }
-  for (double* mean : {&all.period, &all.travel, &all.torso, &all.touchdown_gap, &all.stretch_LA,
-                       &all.stretch_LS, &all.torque_mLA, &all.torque_mLS}) {
-    *mean = hops > 0.0 ? *mean / hops : 0.0;
+  const std::vector<Hop> hops = settled_hops(runs);
+  const double share = hops.empty() ? 0.0 : 1.0 / static_cast<double>(hops.size());
+  for (const Hop& hop : hops) {
+    all.period += share * hop.period;
+    all.travel += share * hop.travel;
+    all.torso += share * hop.torso;
+    all.touchdown_gap += share * hop.touchdown_gap;
+    all.stretch_LA += share * hop.largest_stretch_LA;
+    all.stretch_LS += share * hop.largest_stretch_LS;
+    all.torque_mLA += share * hop.largest_torque_mLA;
+    all.torque_mLS += share * hop.largest_torque_mLS;
+    all.time_at_limit += share * hop.time_at_limit;
   }
   if (!counts.empty()) {
     const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);

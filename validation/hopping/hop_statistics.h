@@ -17,14 +17,21 @@ std::vector<HopRun> hop_from(const model::Model& model, const controllers::Hoppi
                              const std::vector<HopStart>& starts, const HopOptions& options,
                              const std::function<void(int)>& progress = {});
 
+/// The same for many controllers: runs[controller][start].
+std::vector<std::vector<HopRun>> hop_all(const model::Model& model,
+                                         const std::vector<controllers::HoppingConfig>& configs,
+                                         const std::vector<HopStart>& starts, const HopOptions& options,
+                                         const std::function<void(int)>& progress = {});
+
 struct HopStatistics {
   int starts = 0;
   int sustained = 0;         ///< runs with at least `enough` hops
   double median_hops = 0.0;  ///< of all runs
-  // Means over the second half of each run's hops.
+  // Means over the settled hops (settled_hops) of all runs; 0 without one.
   double period = 0.0, travel = 0.0, torso = 0.0, touchdown_gap = 0.0;
   double stretch_LA = 0.0, stretch_LS = 0.0;  ///< largest of each hop, rad of motor
   double torque_mLA = 0.0, torque_mLS = 0.0;  ///< largest of each hop, N m
+  double time_at_limit = 0.0;                 ///< of a hop, all motors, s
 };
 HopStatistics statistics_of(const std::vector<HopRun>& runs, long enough);
 

@@ -93,6 +93,15 @@ void read_supplements(const YamlNode& node, controllers::HoppingSupplements& s) 
   s.contact_samples = static_cast<int>(std::lround(samples));
 }
 
+void read_workspace(const YamlNode& node, controllers::HoppingWorkspace& w) {
+  read_entries(node,
+               {{"leg_angle_from", "rad", &w.leg_angle_from},
+                {"leg_angle_to", "rad", &w.leg_angle_to},
+                {"leg_shape_from", "rad", &w.leg_shape_from},
+                {"leg_shape_to", "rad", &w.leg_shape_to}},
+               {});
+}
+
 controllers::LegAngleSource read_leg_angle(const YamlNode& node) {
   const std::string text = node.text();
   if (text != "joints" && text != "motor") {
@@ -119,7 +128,7 @@ HoppingConfig read_hopping(const std::string& path) {
        {"torque_limit_mLA", "N m", &config.torque_limit_mLA},
        {"torque_limit_mLS", "N m", &config.torque_limit_mLS}},
       {"plumbline", "controller", "title", "note", "parameters", "event_update", "left", "right", "leg_angle",
-       "leg_angle_rate", "leg_angle_filter", "leg_shape_filter", "hip_filter", "supplements"});
+       "leg_angle_rate", "leg_angle_filter", "leg_shape_filter", "hip_filter", "supplements", "workspace"});
   read_parameters(root.at("parameters"), config.parameters);
   if (const auto update = root.find("event_update")) {
     read_update(*update, config.parameters);
@@ -132,6 +141,9 @@ HoppingConfig read_hopping(const std::string& path) {
   read_filter(root.at("leg_shape_filter"), config.leg_shape_filter);
   read_filter(root.at("hip_filter"), config.hip_filter);
   read_supplements(root.at("supplements"), config.supplements);
+  if (const auto workspace = root.find("workspace")) {
+    read_workspace(*workspace, config.workspace);
+  }
   return config;
 }
 

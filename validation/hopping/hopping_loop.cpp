@@ -91,14 +91,26 @@ controllers::LegCounts HoppingLoop::counts(const Leg& leg, const Eigen::VectorXd
           leg.knee.counts(outputs)};
 }
 
-void HoppingLoop::command(const Eigen::VectorXd& outputs, const std::vector<model::Touch>& touches,
-                          double* command) {
+controllers::HoppingSample HoppingLoop::sample_of(const Eigen::VectorXd& outputs) const {
   controllers::HoppingSample sample;
   sample.left = counts(left_, outputs);
   sample.right = counts(right_, outputs);
   sample.torso = torso_.counts(outputs);
   sample.tower = tower_.counts(outputs);
   sample.boom_pitch = boom_pitch_.counts(outputs);
+  return sample;
+}
+
+void HoppingLoop::resume(double h_T_d, std::int64_t tower, const Eigen::MatrixXd& outputs) {
+  controller_.resume(h_T_d, tower);
+  for (const auto& column : outputs.colwise()) {
+    torques_ = controller_.command(sample_of(column));
+  }
+}
+
+void HoppingLoop::command(const Eigen::VectorXd& outputs, const std::vector<model::Touch>& touches,
+                          double* command) {
+  controllers::HoppingSample sample = sample_of(outputs);
   sample.left_contact = touches[static_cast<std::size_t>(left_.foot)].depth > 0.0;
   sample.right_contact = touches[static_cast<std::size_t>(right_.foot)].depth > 0.0;
   torques_ = controller_.command(sample);

@@ -22,6 +22,11 @@ class HoppingLoop {
   /// One sample. `outputs`: all sensors of the model, true positions; `command` of all motors is written.
   void command(const Eigen::VectorXd& outputs, const std::vector<model::Touch>& touches, double* command);
 
+  /// The controller as it would be in flight at the end of these samples (all sensors, true positions; one a
+  /// column), behind a landing at `tower` counts that left h_T^d at `h_T_d`.
+  void resume(double h_T_d, std::int64_t tower, const Eigen::MatrixXd& outputs);
+
+  double travel_resolution() const { return tower_.resolution; }  ///< of the travel's sensor, in its unit
   const controllers::Hopping& controller() const { return controller_; }
   const controllers::HoppingTorques& torques() const { return torques_; }  ///< of the last command
   const controllers::HoppingConfig& config() const { return config_; }
@@ -39,6 +44,7 @@ class HoppingLoop {
   static Encoder find_encoder(const model::Model& model, const std::string& name);
   static Leg find_leg(const model::Model& model, const std::string& side);
   controllers::HoppingConfig with_resolutions(controllers::HoppingConfig config) const;
+  controllers::HoppingSample sample_of(const Eigen::VectorXd& outputs) const;
   controllers::LegCounts counts(const Leg& leg, const Eigen::VectorXd& outputs) const;
 
   bool in_the_plane_ = false;
