@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <vector>
 
 #include "validation/predict/problem.h"
@@ -10,6 +11,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kSingular = 1e-3;
+constexpr double kFurthest = 5.0;  // steps in a round: beyond, the slope says little
 
 }  // namespace
 
@@ -62,7 +64,8 @@ FixedPoint find_fixed_point(const Map& map, const Eigen::VectorXd& guess, const 
         Eigen::MatrixXd::Identity(n, n) - steps.cwiseInverse().asDiagonal() * (*slope) * steps.asDiagonal();
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(kSingular);
-    point.at += steps.cwiseProduct(svd.solve(off));
+    const Eigen::VectorXd step = svd.solve(off);
+    point.at += steps.cwiseProduct(step * std::min(1.0, kFurthest / step.cwiseAbs().maxCoeff()));
   }
 }
 
