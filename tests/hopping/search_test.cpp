@@ -107,8 +107,8 @@ TEST(DrawnModels, StayWithinTheirShareAndDiffer) {
   }
 }
 
-// Worked out by hand: half the hops missing costs 10; of the two settled hops (ten, less five and three) one is off by
-// two tolerances, one by four: log(1 + (4 + 16)/2).
+// Worked out by hand: half the hops missing costs 10; of the two settled hops (ten, less five and three) one
+// is off by two tolerances, one by four: log(1 + (4 + 16)/2).
 TEST(HoppingCost, IsWhatItsDescriptionSays) {
   Published travel;
   travel.measure = find_measure("travel");

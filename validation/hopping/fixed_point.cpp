@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <vector>
 
 #include "validation/predict/problem.h"
@@ -10,6 +11,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kSingular = 1e-3;
+constexpr double kFurthest = 5.0;  // steps in a round: beyond, the slope says little
 
 }  // namespace
 
@@ -38,32 +40,32 @@ double growth_of(const Eigen::MatrixXd& slope) { return slope.eigenvalues().cwis
 
 FixedPoint find_fixed_point(const Map& map, const Eigen::VectorXd& guess, const Eigen::VectorXd& steps,
                             double tolerance, int most, int threads) {
-  FixedPoint point;
-  point.at = guess;
+  FixedPoint best;
+  best.at = guess;
+  Eigen::VectorXd at = guess;
   const Eigen::Index n = guess.size();
-  for (;; ++point.rounds) {
-    const auto image = map(point.at);
-    if (!image) {
-      return point;
-    }
-    const Eigen::VectorXd off = (*image - point.at).cwiseQuotient(steps);
-    point.residual = off.cwiseAbs().maxCoeff();
-    const auto slope = central_differences(map, point.at, steps, threads);
+  for (int round = 0; round <= most; ++round) {
+    const auto image = map(at);
+    const auto slope = image ? central_differences(map, at, steps, threads) : std::nullopt;
     if (!slope) {
-      return point;
+      return best;
     }
-    point.slope = *slope;
-    point.growth = growth_of(*slope);
-    point.found = point.residual <= tolerance;
-    if (point.found || point.rounds >= most) {
-      return point;
+    const Eigen::VectorXd off = (*image - at).cwiseQuotient(steps);
+    const double residual = off.cwiseAbs().maxCoeff();
+    if (round == 0 || residual < best.residual) {
+      best = {residual <= tolerance, at, residual, *slope, growth_of(*slope), round};
+    }
+    if (best.found) {
+      return best;
     }
     const Eigen::MatrixXd scaled =
         Eigen::MatrixXd::Identity(n, n) - steps.cwiseInverse().asDiagonal() * (*slope) * steps.asDiagonal();
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(kSingular);
-    point.at += steps.cwiseProduct(svd.solve(off));
+    const Eigen::VectorXd step = svd.solve(off);
+    at += steps.cwiseProduct(step * std::min(1.0, kFurthest / step.cwiseAbs().maxCoeff()));
   }
+  return best;
 }
 
 }  // namespace plumbline::validation

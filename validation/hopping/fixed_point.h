@@ -24,8 +24,9 @@ struct FixedPoint {
 };
 
 /// Newton's method from `guess`: u += (1 - dP/du)^+ (P(u) - u), the singular values below 1e-3 of the largest
-/// left out, until |P(u) - u| is below `tolerance` steps everywhere or `most` rounds have been made. Works
-/// for unstable fixed points too. `found`: the tolerance was reached and the slope is known there.
+/// left out and no coordinate moved by more than five steps a round, until |P(u) - u| is below `tolerance`
+/// steps everywhere or `most` rounds have been made. Works for unstable fixed points too. `found`: the
+/// tolerance was reached and the slope is known there.
 FixedPoint find_fixed_point(const Map& map, const Eigen::VectorXd& guess, const Eigen::VectorXd& steps,
                             double tolerance, int most, int threads);
 

@@ -98,7 +98,7 @@ Verdict of_orbit(const Published& published, const std::optional<Orbit>& orbit) 
   }
   if (!orbit->found) {
     return {published, std::nullopt,
-            fmt::format("no fixed point: {:.1f} steps away after {} rounds", orbit->residual, orbit->rounds)};
+            fmt::format("no fixed point: {:.1f} steps away at best", orbit->residual)};
   }
   const bool without = published.measure->name == "growth_without_update";
   const double growth = without ? orbit->growth_without_update : orbit->growth;
