@@ -221,7 +221,7 @@ void add_fit(CLI::App& app, Outcome& outcome) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->footer(
-      "Examples:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml\n"
+      "Example:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml\n"
       "  plumbline fit --recipe validation/recipes/mabel --seed 7");
   command->callback([options, command, &outcome] {
     check_usage(*command, *options);

@@ -21,6 +21,7 @@ using Sign = QuantityRule::Sign;
 template <typename Named>
 std::vector<std::string> names(const std::vector<Named>& all) {
   std::vector<std::string> list;
+  list.reserve(all.size());
   for (const Named& one : all) {
     list.push_back(one.name);
   }
@@ -265,10 +266,10 @@ void read_method(const YamlNode& node, const Recipe& recipe, const std::set<std:
 
 std::vector<std::string> names_of(const std::vector<Unknown>& unknowns) { return names(unknowns); }
 
-std::string known_name(const YamlNode& node, const std::vector<std::string>& known, const std::string& kind) {
-  const std::string name = node.text();
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    node.refuse(model::quote(name), "the name of a " + kind + nearest_names(name, known));
+std::string known_name(const YamlNode& node, const std::vector<std::string>& names, const std::string& kind) {
+  std::string name = node.text();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    node.refuse(model::quote(name), "the name of a " + kind + nearest_names(name, names));
   }
   return name;
 }
