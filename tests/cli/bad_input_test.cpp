@@ -466,9 +466,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"nothing_published", {}, {"validate", "robot", "--json", "out.json"}, {"published.yaml"}},
         BadInput{"published_without_a_measure",
                  {{"robot/published.yaml", "",
-                   "plumbline: published/1\nquantities:\n  - {name: x, measure: speed}\n"}},
+                   "plumbline: published/1\nmodel: model.yaml\ncontroller: hopping.yaml\nquantities:\n  - "
+                   "{name: x, measure: speed}\n"}},
                  {"validate", "robot", "--json", "out.json"},
-                 {"published.yaml:3", "measure", "speed"}},
+                 {"published.yaml:5", "measure", "speed"}},
         BadInput{"validation_below_a_file",
                  {},
                  {"validate", "robot", "--json", "robot/model.yaml/out.json"},

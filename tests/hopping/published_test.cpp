@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "simulator/trace/error.h"
@@ -19,14 +20,15 @@ using testing::HasSubstr;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string one(const std::string& middle) {
-  return "plumbline: published/1\nquantities:\n  - name: a thing\n    " + middle + "\n";
+  return "plumbline: published/1\nmodel: m.yaml\ncontroller: c.yaml\nquantities:\n  - name: a thing\n    " +
+         middle + "\n";
 }
 
 const char* const kGood =
     "measure: torso_at_landing\n    value: {value: 8, unit: deg, source: here}\n"
     "    tolerance: {value: 2, unit: deg, assumed: because}";
 
-std::vector<Published> read(const std::string& text) {
+PublishedRobot read(const std::string& text) {
   const test::TemporaryFolder folder;
   return read_published(folder.write("published.yaml", text));
 }
@@ -41,7 +43,11 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(PublishedFile, IsReadInSi) {
-  const std::vector<Published> all = read(one(kGood));
+  const PublishedRobot robot = read(one(kGood));
+  EXPECT_THAT(robot.model, testing::EndsWith("/m.yaml"));
+  EXPECT_THAT(robot.controller, testing::EndsWith("/c.yaml"));
+  EXPECT_EQ(robot.tuned_rigid, "");
+  const std::vector<Published>& all = robot.quantities;
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].measure->name, "torso_at_landing");
   EXPECT_NEAR(all[0].quantity.value, 8.0 * kDegree, 1e-12);
@@ -51,7 +57,7 @@ TEST(PublishedFile, IsReadInSi) {
 
 TEST(PublishedFile, BadOnesAreRefused) {
   EXPECT_THAT(refusal(one("measure: torso_at_landin\n    value: {value: 1, unit: deg, source: x}")),
-              AllOf(HasSubstr("published.yaml:4"), HasSubstr("torso_at_landing")));
+              AllOf(HasSubstr("published.yaml:6"), HasSubstr("torso_at_landing")));
   EXPECT_THAT(refusal(one("measure: travel\n    value: {value: 1, unit: deg, source: x}\n"
                           "    tolerance: {value: 1, unit: m, source: x}")),
               AllOf(HasSubstr("deg"), HasSubstr("\"m\"")));
@@ -66,12 +72,16 @@ TEST(PublishedFile, BadOnesAreRefused) {
                           "    tolerance: {value: 1, unit: m, source: x}")),
               HasSubstr("source"));
   EXPECT_THAT(refusal(one(std::string(kGood) + "\n    colour: red")), HasSubstr("colour"));
+  EXPECT_THAT(refusal("plumbline: published/1\ncontroller: c.yaml\nquantities: []\n"), HasSubstr("model"));
   EXPECT_THAT(refusal("plumbline: published/2\nquantities: []\n"), HasSubstr("published/1"));
-  EXPECT_THAT(refusal("plumbline: published/1\nquantities: []\n"), HasSubstr("at least one"));
+  EXPECT_THAT(refusal("plumbline: published/1\nmodel: m\ncontroller: c\nquantities: []\n"),
+              HasSubstr("at least one"));
 }
 
 TEST(PublishedFile, TheShippedOneIsWhole) {
-  const std::vector<Published> all = read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml");
+  const PublishedRobot robot = read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml");
+  const std::vector<Published>& all = robot.quantities;
+  EXPECT_TRUE(std::filesystem::exists(robot.model) && std::filesystem::exists(robot.controller));
   std::set<std::string> names;
   for (const Published& published : all) {
     EXPECT_THAT(published.quantity.source, HasSubstr("Park et al."));

@@ -26,7 +26,7 @@ ValidateInputs mabel() {
   ValidateInputs inputs;
   inputs.model = model::read_model(kFolder + "mabel_planar.yaml", model::known_effects());
   inputs.controller = read_hopping(kFolder + "hopping.yaml");
-  inputs.published = read_published(kFolder + "published.yaml");
+  inputs.published = read_published(kFolder + "published.yaml").quantities;
   return inputs;
 }
 

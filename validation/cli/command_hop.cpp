@@ -192,7 +192,7 @@ void run_search(const Options& options, const model::Model& model, const control
   search.sides = options.sides;
   search.width = options.width;
   search.run = options.run;
-  search.published = validation::read_published(options.published);
+  search.published = validation::read_published(options.published).quantities;
   print_now(search_head(config, options.sides));
   const validation::HopSearchResult best = validation::search_gains(
       model, config, search,

@@ -24,28 +24,26 @@ using validation::Validation;
 using validation::Verdict;
 
 struct Options {
-  std::string folder, model = "mabel_planar.yaml", controller = "hopping.yaml",
-                      tuned_rigid = "hopping_rigid.yaml", json;
+  std::string folder, model, controller, tuned_rigid, json;
   validation::ValidateOptions run;
   bool no_orbit = false, no_without = false;
 };
-
-/// A file of the robot's folder, or a path of its own.
-std::string in_folder(const std::string& folder, const std::string& file) {
-  const fs::path inside = fs::path(folder) / file;
-  return fs::exists(inside) ? inside.string() : file;
-}
 
 validation::ValidateInputs read_inputs(const Options& options) {
   if (!fs::is_directory(options.folder)) {
     throw InputError({options.folder, 0, ""}, "no such folder", "a robot's folder with published.yaml");
   }
+  const auto given_or = [](const std::string& given, const std::string& standard) {
+    return given.empty() ? standard : given;
+  };
+  const validation::PublishedRobot robot =
+      validation::read_published((fs::path(options.folder) / "published.yaml").string());
   validation::ValidateInputs inputs;
-  inputs.published = validation::read_published((fs::path(options.folder) / "published.yaml").string());
-  inputs.model = model::read_model(in_folder(options.folder, options.model), model::known_effects());
-  inputs.controller = validation::read_hopping(in_folder(options.folder, options.controller));
-  const std::string rigid = in_folder(options.folder, options.tuned_rigid);
-  if (fs::exists(rigid)) {
+  inputs.published = robot.quantities;
+  inputs.model = model::read_model(given_or(options.model, robot.model), model::known_effects());
+  inputs.controller = validation::read_hopping(given_or(options.controller, robot.controller));
+  const std::string rigid = given_or(options.tuned_rigid, robot.tuned_rigid);
+  if (!rigid.empty()) {
     inputs.tuned_rigid = validation::read_hopping(rigid);
   }
   return inputs;
@@ -218,14 +216,12 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   command->add_option("robot", options->folder, "folder with published.yaml, the model and the controller")
       ->required()
       ->type_name("ROBOT_FOLDER");
-  command->add_option("--model", options->model, "model, in the folder or elsewhere")
-      ->capture_default_str()
+  command->add_option("--model", options->model, "another model than published.yaml names")
       ->type_name("FILE");
-  command->add_option("--controller", options->controller, "the controller's constants")
-      ->capture_default_str()
+  command->add_option("--controller", options->controller, "other constants of the controller")
       ->type_name("FILE");
-  command->add_option("--tuned-rigid", options->tuned_rigid, "constants that were found on rigid cables")
-      ->capture_default_str()
+  command
+      ->add_option("--tuned-rigid", options->tuned_rigid, "other constants that were found on rigid cables")
       ->type_name("FILE");
   add_numbers(*command, *options);
   command->add_flag("--no-orbit", options->no_orbit, "do not look for the orbit's multipliers");
@@ -233,8 +229,8 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   add_json_option(*command, options->json);
   command->footer(
       "Exit status 0 when all that was measured is within its tolerance, 1 otherwise.\n\n"
-      "Example:\n  plumbline validate robots/mabel --model mabel.yaml --controller hopping_boom.yaml --draws "
-      "20");
+      "Example:\n  plumbline validate robots/mabel --model robots/mabel/mabel.yaml --controller "
+      "robots/mabel/hopping_boom.yaml --draws 20");
   command->callback([options, &outcome] { run(*options, outcome); });
 }
 

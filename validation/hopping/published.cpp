@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "simulator/model/quantity.h"
 #include "simulator/model/yaml_node.h"
@@ -85,20 +86,28 @@ std::string to_string(Relation relation) {
   return "value";
 }
 
-std::vector<Published> read_published(const std::string& path) {
+PublishedRobot read_published(const std::string& path) {
   const YamlNode root = YamlNode::load(path);
   if (root.at("plumbline").text() != "published/1") {
     root.at("plumbline").refuse("`plumbline: published/1`");
   }
-  root.allow_keys({"plumbline", "title", "quantities"});
-  std::vector<Published> all;
-  for (const YamlNode& node : root.at("quantities").items()) {
-    all.push_back(read_one(node));
+  root.allow_keys({"plumbline", "title", "model", "controller", "tuned_rigid", "quantities"});
+  const auto beside = [&path](const YamlNode& node) {
+    return (std::filesystem::path(path).parent_path() / node.text()).string();
+  };
+  PublishedRobot robot;
+  robot.model = beside(root.at("model"));
+  robot.controller = beside(root.at("controller"));
+  if (const auto tuned_rigid = root.find("tuned_rigid")) {
+    robot.tuned_rigid = beside(*tuned_rigid);
   }
-  if (all.empty()) {
+  for (const YamlNode& node : root.at("quantities").items()) {
+    robot.quantities.push_back(read_one(node));
+  }
+  if (robot.quantities.empty()) {
     root.at("quantities").refuse("an empty list", "at least one quantity");
   }
-  return all;
+  return robot;
 }
 
 }  // namespace plumbline::validation

@@ -26,7 +26,14 @@ struct Published {
 
 std::string to_string(Published::Relation relation);
 
+/// What was published about a robot, and the files that play it (paths, resolved against the file's folder).
+struct PublishedRobot {
+  std::string model, controller;
+  std::string tuned_rigid;  ///< constants of the controller that were found on rigid cables; empty: none
+  std::vector<Published> quantities;
+};
+
 /// Reads `plumbline: published/1`. Throws InputError (one line: file, line, key, found, expected).
-std::vector<Published> read_published(const std::string& path);
+PublishedRobot read_published(const std::string& path);
 
 }  // namespace plumbline::validation
