@@ -26,7 +26,7 @@ using validation::Verdict;
 struct Options {
   std::string folder, model, controller, tuned_rigid, json;
   validation::ValidateOptions run;
-  bool no_orbit = false, no_without = false;
+  bool orbit = false, no_without = false;
 };
 
 validation::ValidateInputs read_inputs(const Options& options) {
@@ -172,7 +172,7 @@ void run(Options options, Outcome& outcome) {
   integrate::Options& integrator = options.run.run.integrator;
   integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
   options.run.run.stop = &stop_flag();
-  options.run.orbit = !options.no_orbit;
+  options.run.orbit = options.orbit;
   options.run.without = !options.no_without;
   ProgressLine line;
   const Validation done = validation::validate(inputs, options.run, line.callback());
@@ -224,7 +224,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
       ->add_option("--tuned-rigid", options->tuned_rigid, "other constants that were found on rigid cables")
       ->type_name("FILE");
   add_numbers(*command, *options);
-  command->add_flag("--no-orbit", options->no_orbit, "do not look for the orbit's multipliers");
+  command->add_flag("--orbit", options->orbit, "look for the orbit's multipliers too, which takes minutes");
   command->add_flag("--no-without", options->no_without, "do not repeat the starts without the update");
   add_json_option(*command, options->json);
   command->footer(
