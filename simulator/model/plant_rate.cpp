@@ -37,9 +37,9 @@ double Plant::delay(int motor) const {
 }
 
 std::vector<double> Plant::delays() const {
-  std::vector<double> all;
+  std::vector<double> all(static_cast<std::size_t>(motors()));
   for (int m = 0; m < motors(); ++m) {
-    all.push_back(delay(m));
+    all[static_cast<std::size_t>(m)] = delay(m);
   }
   return all;
 }
@@ -270,10 +270,10 @@ Energetics Plant::powers(const double* x) const {
   return e;
 }
 
-Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& start, const double* command) {
+Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& z, const double* command) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd xdot(nx_);
-  x.head(nz_) = start;
+  x.head(nz_) = z;
   settle(command, x.data());
   for (int iteration = 0; iteration < 60; ++iteration) {
     rate(x.data(), command, xdot.data());

@@ -59,7 +59,7 @@ std::string unit_of(const Published& published) {
 }
 
 std::string published_text(const Published& published) {
-  const std::string value = number(published, published.quantity.value) + unit_of(published);
+  std::string value = number(published, published.quantity.value) + unit_of(published);
   switch (published.relation) {
     case Published::Relation::at_most:
       return "at most " + value;

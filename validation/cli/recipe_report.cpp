@@ -48,7 +48,7 @@ std::string verdict_text(const Unknown& unknown, const Finding& finding, const T
   if (value == nullptr) {
     return "-";
   }
-  const std::string inside = covers(finding, *value) ? "inside" : "outside";
+  std::string inside = covers(finding, *value) ? "inside" : "outside";
   switch (verdict_of(unknown, finding, truth)) {
     case Verdict::met:
       return "met, " + inside;

@@ -30,7 +30,7 @@ double stretch(const model::Plant& plant, const std::string& ratio, const Eigen:
 Eigen::VectorXd place(const model::Model& model, const controllers::HoppingConfig& config,
                       const HopStart& start, const HopOptions& options, HopSimulation& simulation) {
   model::Plant flat(model, {}, contact::Terrain(options.terrain.floor()));
-  const Eigen::VectorXd state = start_state(flat, config, start);
+  Eigen::VectorXd state = start_state(flat, config, start);
   const std::vector<model::Touch> touches = simulation.plant().touches(state.data());
   for (std::size_t f = 0; f < touches.size(); ++f) {
     if (touches[f].depth > 0.0) {

@@ -28,7 +28,7 @@ std::string HopWatchdog::look(const HopSimulation& simulation) {
   if (stop != controllers::StopSwitch::none && power_off_since_ < 0.0) {
     power_off_since_ = now;
   }
-  const std::string end = reason(simulation);
+  std::string end = reason(simulation);
   if (end.empty() || power_off_since_ < 0.0) {
     return end;
   }
