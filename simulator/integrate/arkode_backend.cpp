@@ -178,13 +178,7 @@ void ArkodeBackend::steps(double t_stop) { evolve(t_stop, ARK_NORMAL); }
 
 int ArkodeBackend::worst_state() const {
   if (fresh_ && !stepping_) return -1;
-  Eigen::VectorXd error = x_;
-  Eigen::VectorXd weight = x_;
-  const Vector error_view = view(error, context_);
-  const Vector weight_view = view(weight, context_);
-  ARKStepGetEstLocalErrors(memory_.get(), error_view.get());
-  ARKStepGetErrWeights(memory_.get(), weight_view.get());
-  return largest(error.array() * weight.array());
+  return largest_estimate(memory_.get(), ARKStepGetEstLocalErrors, ARKStepGetErrWeights, context_);
 }
 
 Counts ArkodeBackend::counts() const {

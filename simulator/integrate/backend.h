@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulator/integrate/bridge.h"
+#include "simulator/integrate/handles.h"
 #include "simulator/integrate/integrator.h"
 
 namespace plumbline::integrate {
@@ -52,6 +53,9 @@ class Backend {
   std::string worst();
   /// Index of the largest |error| * weight, or of the first that is not finite; -1 when all are zero.
   static int largest(const Eigen::ArrayXd& weighed);
+  /// The same of what a SUNDIALS integrator gives as local errors and their weights.
+  using GetVector = int (*)(void* memory, N_Vector vector);
+  int largest_estimate(void* memory, GetVector errors, GetVector weights, const Context& context) const;
 
   Bridge& bridge_;
   const Options options_;

@@ -142,13 +142,7 @@ bool CvodeBackend::advance(double t_stop) {
 
 int CvodeBackend::worst_state() const {
   if (fresh_ && !stepping_) return -1;
-  Eigen::VectorXd error = x_;
-  Eigen::VectorXd weight = x_;
-  const Vector error_view = view(error, context_);
-  const Vector weight_view = view(weight, context_);
-  CVodeGetEstLocalErrors(memory_.get(), error_view.get());
-  CVodeGetErrWeights(memory_.get(), weight_view.get());
-  return largest(error.array() * weight.array());
+  return largest_estimate(memory_.get(), CVodeGetEstLocalErrors, CVodeGetErrWeights, context_);
 }
 
 Counts CvodeBackend::counts_since_restart() const {

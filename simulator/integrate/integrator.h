@@ -60,6 +60,8 @@ struct Options {
   double max_step = 0.0;    ///< 0: none
   double fixed_step = 0.0;  ///< > 0: no error control (RK methods only; order tests)
   long max_steps = 200000;  ///< between two stops
+  /// `relative`, and a hundredth of it absolute for every state.
+  void set_tolerance(double relative);
   void validate() const;  ///< throws std::invalid_argument naming the option, its value and the allowed range
 };
 

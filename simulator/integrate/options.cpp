@@ -46,6 +46,11 @@ std::string to_string(Method method) {
   throw std::logic_error("to_string: no such integration method");
 }
 
+void Options::set_tolerance(double relative) {
+  relative_tolerance = relative;
+  absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * relative);
+}
+
 void Options::validate() const {
   check_order(*this);
   if (!positive(relative_tolerance) || relative_tolerance >= 1.0) {

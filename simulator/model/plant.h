@@ -155,6 +155,7 @@ class Plant {
   Stiffest stiffest(const double* x, const double* command);
 
  private:
+  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
   struct Entry {
     int index;
     double value;

@@ -9,7 +9,6 @@
 namespace plumbline::model {
 
 using Vector = Eigen::Map<const Eigen::VectorXd>;
-using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
 
 effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
   double position = slot.line.offset;

@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
 constexpr double kVelocityStep = 1e-4;
-using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
-constexpr int kPartsOfTurn = 6;                                 // of a sample in which a place turns round
+constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 
 }  // namespace
 

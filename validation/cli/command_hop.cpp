@@ -232,7 +232,7 @@ void run(Options options) {
   controllers::HoppingConfig config = validation::read_hopping(options.controller);
   config.parameters.event_update = config.parameters.event_update && !options.no_update;
   integrate::Options& integrator = options.run.integrator;
-  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
+  integrator.set_tolerance(integrator.relative_tolerance);
   options.run.stop = &stop_flag();
   options.run.terrain = terrain_of(options);
   if (options.search > 0) {

@@ -120,7 +120,7 @@ void run(Options options) {
   check_writable(options.json);
   check_not_an_input(options.out, {options.model, options.experiment});
   integrate::Options& integrator = options.replay.integrator;
-  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
+  integrator.set_tolerance(integrator.relative_tolerance);
   integrator.validate();
   options.replay.stop = &stop_flag();
   std::string model = options.model;

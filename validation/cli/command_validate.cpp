@@ -170,7 +170,7 @@ void run(Options options, Outcome& outcome) {
   check_writable(options.json);
   const validation::ValidateInputs inputs = read_inputs(options);
   integrate::Options& integrator = options.run.run.integrator;
-  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * integrator.relative_tolerance);
+  integrator.set_tolerance(integrator.relative_tolerance);
   options.run.run.stop = &stop_flag();
   options.run.orbit = options.orbit;
   options.run.without = !options.no_without;

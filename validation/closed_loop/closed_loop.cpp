@@ -95,8 +95,7 @@ integrate::RunResult simulate(Predictor& predictor, const Trial& trial, double r
   integrate::RunOptions run;
   run.energy = false;
   run.events = false;
-  run.integrator.relative_tolerance = relative_tolerance;
-  run.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, relative_tolerance * 1e-2);
+  run.integrator.set_tolerance(relative_tolerance);
   const integrate::HeldCommands commands(command_samples(plant.model(), trial.commands, trial.samples()),
                                          trial.period, plant.delays());
   return integrate::run(plant, x0, commands, trial.time[0], control, {}, run);

@@ -208,10 +208,9 @@ Eigen::VectorXd Predictor::initial_spread(const Window& window) {
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   integrate::PlantOde ode(plant_, false, false);
   integrate::Options options;
-  options.relative_tolerance = options_.relative_tolerance;
+  options.set_tolerance(options_.relative_tolerance);
   options.method = options_.method;
   options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
-  options.absolute_tolerance = Eigen::VectorXd::Constant(1, options_.relative_tolerance * 1e-2);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
   states_.resize(plant_.states(), window.count);

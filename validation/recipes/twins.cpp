@@ -5,7 +5,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "simulator/sensing/encoder.h"
 #include "validation/hopping/hop_statistics.h"
 #include "validation/hopping/hopping_file.h"
 #include "validation/recipes/linked.h"
@@ -26,11 +25,6 @@ double drawn(std::mt19937_64& random) {
   return number;
 }
 
-double read(const model::Sensor& sensor, double actual, std::mt19937_64& random) {
-  const double noisy = sensing::with_noise(actual, sensor.noise, random);
-  return sensor.resolution > 0.0 ? sensing::Encoder{sensor.resolution, 1.0, 0.0}.reading(noisy) : noisy;
-}
-
 /// The stretch of a hopping run as a trial: what sensors read, what was commanded.
 Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& hops, double period,
                std::mt19937_64& random) {
@@ -49,7 +43,7 @@ Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& 
     channel.sensor = sensor.name;
     channel.values = trace.find("q_" + sensor.name)->values.segment(first, count);
     for (double& value : channel.values) {
-      value = read(sensor, value, random);
+      value = sensor_reading(sensor, value, random);
     }
     trial.measured.push_back(std::move(channel));
   }
@@ -68,8 +62,7 @@ std::vector<Trial> hop_trials(const model::Model& robot, const HopsMethod& hops,
   options.trace = true;
   options.stop = stop;
   options.longest = hops.to + 0.01;
-  options.integrator.relative_tolerance = kTolerance;
-  options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * kTolerance);
+  options.integrator.set_tolerance(kTolerance);
   std::mt19937_64 random(seed);
   std::vector<Trial> trials;
   for (const HopRun& run : hop_from(robot, config, draw_starts(hops.starts, seed), options)) {
@@ -124,7 +117,7 @@ PostureReadings twin_postures(const Recipe& recipe, const Step& step, const Trut
     const Eigen::VectorXd actual = posture.readings(hand);
     for (std::size_t s = 0; s < robot.sensors.size(); ++s) {
       const auto row = static_cast<Eigen::Index>(s);
-      data.sensors(row, i) = read(robot.sensors[s], actual[row], random);
+      data.sensors(row, i) = sensor_reading(robot.sensors[s], actual[row], random);
     }
   }
   if (postures.scale_resolution > 0.0) {

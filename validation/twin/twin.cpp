@@ -31,15 +31,18 @@ integrate::Readout readout_of(const model::Model& model, bool quantise, std::mt1
     for (std::size_t s = 0; s < model.sensors.size(); ++s) {
       const model::Sensor& sensor = model.sensors[s];
       double& value = readings[static_cast<Eigen::Index>(s)];
-      value = sensing::with_noise(value, sensor.noise, random);
-      if (quantise && sensor.resolution > 0.0) {
-        value = sensing::Encoder{sensor.resolution, 1.0, 0.0}.reading(value);
-      }
+      value =
+          quantise ? sensor_reading(sensor, value, random) : sensing::with_noise(value, sensor.noise, random);
     }
   };
 }
 
 }  // namespace
+
+double sensor_reading(const model::Sensor& sensor, double actual, std::mt19937_64& random) {
+  const double noisy = sensing::with_noise(actual, sensor.noise, random);
+  return sensor.resolution > 0.0 ? sensing::Encoder{sensor.resolution, 1.0, 0.0}.reading(noisy) : noisy;
+}
 
 model::EffectUse parse_effect(const std::string& text, const model::Model& model,
                               const effects::Catalogue& catalogue) {
@@ -140,8 +143,7 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
   integrate::RunOptions run;
   run.energy = false;
   run.events = false;
-  run.integrator.relative_tolerance = options.relative_tolerance;
-  run.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, options.relative_tolerance * 1e-2);
+  run.integrator.set_tolerance(options.relative_tolerance);
   const integrate::HeldCommands commands(command_samples(model, experiment.commands, experiment.time.size()),
                                          experiment.period, plant.delays());
   const integrate::RunResult result = integrate::run(plant, start_state(plant, experiment), commands, 0.0, {},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace plumbline::validation {
 /// names when effect, place or parameter is unknown, and when a value is outside its bounds.
 model::EffectUse parse_effect(const std::string& text, const model::Model& model,
                               const effects::Catalogue& catalogue);
+
+/// What a sensor shows for its true position: with its noise, in its counts.
+double sensor_reading(const model::Sensor& sensor, double actual, std::mt19937_64& random);
 
 struct TwinOptions {
   std::uint64_t seed = 1;            ///< of the sensors' noise
