@@ -5,6 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
+#include "validation/diagnose/own_parameters.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -193,12 +194,15 @@ class Diagnoser {
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.estimate = given;
+    const model::Model open = with_stated_errors(model);
+    PredictorPool open_pool(open, data_);
+    const std::vector<FreeParameter> own =
+        noticeable_parameters(open_pool, stated_parameters(open, options_.parameter_width), given.x0);
     // The stage changes as a whole: an interruption must not leave parameters without their values.
-    const std::vector<FreeParameter> own = stated_parameters(model, options_.parameter_width);
     if (!own.empty()) {
       progress_("the model's own parameters", 0.5);
-      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-4});
-      stage.parameters = own;
+      const Estimate fitted = gauss_newton(open_pool, own, values_of(open, own), given.x0, {10, 1e-4});
+      stage = {open, own, fitted};
       diagnosis.ladder.push_back({"own parameters fitted", stage});
     }
   }
