@@ -264,27 +264,6 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
   return free;
 }
 
-std::vector<FreeParameter> stated_parameters(const model::Model& model, double width) {
-  std::vector<FreeParameter> free;
-  for (std::size_t e = 0; e < model.effects.size(); ++e) {
-    const model::EffectUse& use = model.effects[e];
-    const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
-    for (FreeParameter& parameter : free_parameters_of(use, static_cast<int>(e), {}, angular)) {
-      const model::Quantity& quantity = use.values[static_cast<std::size_t>(parameter.id.parameter)];
-      if (quantity.uncertainty <= 0.0) {
-        continue;
-      }
-      parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
-      parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
-      parameter.mean = quantity.value;
-      parameter.deviation = quantity.uncertainty;
-      parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
-      free.push_back(parameter);
-    }
-  }
-  return free;
-}
-
 Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters) {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t p = 0; p < parameters.size(); ++p) {

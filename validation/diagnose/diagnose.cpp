@@ -5,6 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
+#include "validation/diagnose/own_parameters.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -112,14 +113,11 @@ class Diagnoser {
 
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
-    const Scores base = diagnosis.final_stage.estimate.scores;
     for (int round = 0; round < options_.most_effects; ++round) {
       if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
         break;
       }
     }
-    drop_superfluous(diagnosis);
-    conclude(base, diagnosis);
   }
 
   /// The ladder on all windows, where candidates were tried on a part of them.
@@ -143,14 +141,30 @@ class Diagnoser {
     }
   }
 
-  /// The rung before anything was added.
-  static const Rung& first_rung(const Diagnosis& diagnosis) {
-    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
-    return diagnosis.ladder[fitted ? 1 : 0];
+  /// An early guess that the later ones make superfluous is dropped again.
+  void drop_superfluous(const Data& all, Diagnosis& diagnosis) const {
+    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
+      Stage& stage = diagnosis.final_stage;
+      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
+      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
+      Stage without = without_effect(stage, effect);
+      PredictorPool pool(without.model, all);
+      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
+                                      {}, {10, 1e-3});
+      const double rise = judged(without.estimate.scores, all) / judged(stage.estimate.scores, all) - 1.0;
+      if (rise < options_.material) {
+        diagnosis.ladder.push_back(
+            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
+        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
+        stage = without;
+      } else {
+        ++i;
+      }
+    }
   }
 
-  void conclude(const Scores& base, Diagnosis& diagnosis) const {
-    const double before = judged(base, data_);
+  void conclude(Diagnosis& diagnosis) const {
+    const double before = judged(first_rung(diagnosis).stage.estimate.scores, data_);
     const double after = judged(diagnosis.final_stage.estimate.scores, data_);
     const double excess = before * before - 1.0;
     diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
@@ -166,6 +180,12 @@ class Diagnoser {
   }
 
  private:
+  /// The rung before anything was added.
+  static const Rung& first_rung(const Diagnosis& diagnosis) {
+    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
+    return diagnosis.ladder[fitted ? 1 : 0];
+  }
+
   void start(const model::Model& model, Diagnosis& diagnosis) {
     progress_("the model as given", 0.0);
     Stage& stage = diagnosis.final_stage;
@@ -174,12 +194,15 @@ class Diagnoser {
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.estimate = given;
+    const model::Model open = with_stated_errors(model);
+    PredictorPool open_pool(open, data_);
+    const std::vector<FreeParameter> own =
+        noticeable_parameters(open_pool, stated_parameters(open, options_.parameter_width), given.x0);
     // The stage changes as a whole: an interruption must not leave parameters without their values.
-    const std::vector<FreeParameter> own = stated_parameters(model, options_.parameter_width);
     if (!own.empty()) {
       progress_("the model's own parameters", 0.5);
-      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-4});
-      stage.parameters = own;
+      const Estimate fitted = gauss_newton(open_pool, own, values_of(open, own), given.x0, {10, 1e-4});
+      stage = {open, own, fitted};
       diagnosis.ladder.push_back({"own parameters fitted", stage});
     }
   }
@@ -276,28 +299,6 @@ class Diagnoser {
     diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
   }
 
-  /// An early guess that the later ones make superfluous is dropped again.
-  void drop_superfluous(Diagnosis& diagnosis) const {
-    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
-      Stage& stage = diagnosis.final_stage;
-      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
-      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
-      Stage without = without_effect(stage, effect);
-      PredictorPool pool(without.model, data_);
-      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
-                                      {}, {10, 1e-3});
-      const double rise = judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
-      if (rise < options_.material) {
-        diagnosis.ladder.push_back(
-            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
-        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
-        stage = without;
-      } else {
-        ++i;
-      }
-    }
-  }
-
   static Stage without_effect(const Stage& stage, int effect) {
     Stage without = stage;
     without.model.effects.erase(without.model.effects.begin() + effect);
@@ -344,12 +345,13 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     diagnoser.run(model, diagnosis);
     if (part.windows.size() < data.windows.size()) {
       diagnoser.rescore(data, diagnosis);
-      diagnoser.conclude(Diagnoser::first_rung(diagnosis).stage.estimate.scores, diagnosis);
     }
+    diagnoser.drop_superfluous(data, diagnosis);
+    diagnoser.conclude(diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      diagnoser.conclude(diagnosis.ladder.front().stage.estimate.scores, diagnosis);
+      diagnoser.conclude(diagnosis);
     }
   }
   return diagnosis;

@@ -17,7 +17,7 @@ struct DiagnoseOptions {
   double at_floor = 1.05;        ///< error at which nothing is left to explain
   double finished = 1.2;         ///< error below which what was named is an answer
   double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
-  double parameter_width = 2.0;  ///< stated standard deviations that the model's own parameters may move
+  double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
   std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;
   unsigned seed = 1;

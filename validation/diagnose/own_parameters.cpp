@@ -1,0 +1,118 @@
+#include "validation/diagnose/own_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/diagnose/candidates.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// A use of a law with one parameter at its null value, known within `deviation`.
+model::EffectUse open_number(const std::string& law, const std::string& at, double deviation,
+                             const std::string& source) {
+  model::EffectUse use;
+  use.law = effects::Catalogue::all().find(law);
+  use.at = at;
+  model::Quantity quantity;
+  quantity.value = use.law->null_values().front();
+  quantity.uncertainty = deviation;
+  quantity.source = source;
+  use.values.push_back(quantity);
+  return use;
+}
+
+double inertia_deviation(const model::Model& model, const model::Motor& motor) {
+  double square = std::pow(motor.rotor_inertia.uncertainty, 2);
+  for (const model::Inertia& inertia : model.inertias) {
+    square += inertia.at == motor.name ? std::pow(inertia.value.uncertainty, 2) : 0.0;
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+model::Model with_stated_errors(const model::Model& model) {
+  model::Model open = model;
+  const auto add = [&](const std::string& law, const std::string& at, double deviation,
+                       const std::string& what) {
+    if (deviation > 0.0) {
+      open.effects.push_back(open_number(law, at, deviation, "stated uncertainty of the " + what));
+    }
+  };
+  for (const model::Motor& motor : model.motors) {
+    const model::Quantity& constant = motor.torque_constant;
+    add("torque_constant_error", motor.name,
+        constant.value > 0.0 ? constant.uncertainty / constant.value : 0.0, "torque constant");
+    add("rotor_inertia", motor.name, inertia_deviation(model, motor), "rotor inertia");
+  }
+  for (const model::Body& body : model.skeleton.bodies) {
+    add("added_mass", body.name, body.mass_uncertainty, "mass");
+  }
+  return open;
+}
+
+std::vector<FreeParameter> stated_parameters(const model::Model& model, double width) {
+  std::vector<FreeParameter> free;
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const model::EffectUse& use = model.effects[e];
+    const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
+    for (FreeParameter& parameter : free_parameters_of(use, static_cast<int>(e), {}, angular)) {
+      const model::Quantity& quantity = use.values[static_cast<std::size_t>(parameter.id.parameter)];
+      if (quantity.uncertainty <= 0.0) {
+        continue;
+      }
+      parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
+      parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
+      parameter.mean = quantity.value;
+      parameter.deviation = quantity.uncertainty;
+      parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
+      free.push_back(parameter);
+    }
+  }
+  return free;
+}
+
+std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
+                                                 const std::vector<FreeParameter>& parameters,
+                                                 const std::vector<Eigen::VectorXd>& x0) {
+  constexpr double kShareOfFloor = 0.1;
+  const Data& data = pool.data();
+  const std::vector<int> windows = data.windows_of(Role::train);
+  const Eigen::VectorXd theta = values_of(pool.model(), parameters);
+  const Eigen::VectorXd units = search_units(parameters, theta);
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(units.size());
+  double samples = 0.0;
+  for (const Reduced& one : reduce(pool, windows, parameters, theta, x0, units)) {
+    square += one.H.diagonal();
+  }
+  for (const int w : windows) {
+    const Window& window = data.windows[static_cast<std::size_t>(w)];
+    samples += static_cast<double>(window.count) *
+               static_cast<double>(data.trials[static_cast<std::size_t>(window.trial)].measured.size());
+  }
+  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
+  std::vector<FreeParameter> kept;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    const double deviation = parameters[p].deviation / std::abs(slopes[i]);  // in search units
+    if (deviation * std::sqrt(square[i] / samples) > kShareOfFloor) {
+      kept.push_back(parameters[p]);
+    }
+  }
+  return kept;
+}
+
+std::vector<OwnParameter> own_values(const std::vector<FreeParameter>& parameters,
+                                     const Eigen::VectorXd& theta) {
+  std::vector<OwnParameter> own;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (std::isfinite(parameters[p].deviation)) {
+      own.push_back({parameters[p].label, parameters[p].unit, parameters[p].mean, parameters[p].deviation,
+                     theta[static_cast<Eigen::Index>(p)]});
+    }
+  }
+  return own;
+}
+
+}  // namespace plumbline::validation
