@@ -79,12 +79,12 @@ const std::vector<Row>& hopper_rows() {
       {"encoder_offset", "height", "offset=1.5e-5|4.1e-5|0.00012"},
       {"encoder_scale", "height", "scale=1+3.7e-5|0.0001|0.00031"},
       {"encoder_offset", "drive", "offset=0.005|0.015|0.045"},
-      {"encoder_scale", "drive", "scale=1+0.0003|0.001|0.003"},
-      {"encoder_offset", "spring", "offset=1.2e-5|4e-5|0.00012"},
-      {"encoder_scale", "spring", "scale=1+0.0003|0.001|0.003"},
-      {"ground_stiffness_error", "toe", "scale=1+0.012|0.04|0.12"},
-      {"ground_damping_error", "toe", "scale=1+0.018|0.06|0.18"},
-      {"ground_height_error", "toe", "height=3e-5|0.0001|0.0003"},
+      {"encoder_scale", "drive", "scale=1+6e-4|1.8e-3|6e-3"},
+      {"encoder_offset", "spring", "offset=1.3e-5|3.6e-5|0.00011"},
+      {"encoder_scale", "spring", "scale=1+0.00087|0.0024|0.0071"},
+      {"ground_stiffness_error", "toe", "scale=1+0.018|0.048|0.14"},
+      {"ground_damping_error", "toe", "scale=1+0.3|0.9|3"},
+      {"ground_height_error", "toe", "height=1.5e-5|4.2e-5|0.00012"},
   };
   return kRows;
 }
