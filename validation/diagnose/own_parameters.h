@@ -24,6 +24,16 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
                                                  const std::vector<FreeParameter>& parameters,
                                                  const std::vector<Eigen::VectorXd>& x0);
 
+/// How much more probable the data are with every own parameter exactly as stated than with them scattered as
+/// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with S and g the normal
+/// equations of the own parameters in stated deviations, the `fitted` ones of the model eliminated,
+///   log B = (log det(I + S) - g' (I + S)^-1 g) / 2.
+/// Above zero the data speak for the stated numbers. `model` has `fitted` at their values `theta`.
+/// Source: Dickey, Annals of Mathematical Statistics 42, 1971; Kass and Raftery, J. American Statistical
+/// Association 90, 1995.
+double evidence_for_stated(const model::Model& model, const std::vector<FreeParameter>& fitted,
+                           const Estimate& estimate, const Data& data, double width);
+
 /// An own parameter as it was fitted.
 struct OwnParameter {
   std::string label, unit;  ///< "torque_constant_error@mLA:scale"
