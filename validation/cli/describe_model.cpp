@@ -146,6 +146,14 @@ json sensors_json(const Model& model) {
   return list;
 }
 
+json switches_json(const Model& model) {
+  json list = json::array();
+  for (const model::ContactSwitch& one : model.switches) {
+    list.push_back({{"name", one.name}, {"foot", model.feet[static_cast<std::size_t>(one.foot)].name}});
+  }
+  return list;
+}
+
 void print_drivetrain(const Model& model) {
   Rows rows;
   for (const model::Coordinate& coordinate : model.coordinates) {
@@ -209,6 +217,10 @@ void print_sensors(const Model& model) {
                     fmt::format("{:.3g} {}", sensor.floor(), unit)});
   }
   fmt::print("\nSensors:\n\n");
+  for (const model::ContactSwitch& one : model.switches) {
+    rows.push_back({one.name, "contact of " + model.feet[static_cast<std::size_t>(one.foot)].name,
+                    "open/closed", "", "sample period/sqrt(12)"});
+  }
   print_table({"name", "measures", "resolution", "noise", "floor"}, rows);
 }
 
@@ -244,6 +256,7 @@ json to_json(const Model& model, const Freedom& freedom) {
           {"inertias", inertias_json(model)},
           {"effects", effects_json(model)},
           {"sensors", sensors_json(model)},
+          {"contact_switches", switches_json(model)},
           {"places", places}};
 }
 
