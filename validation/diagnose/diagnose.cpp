@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
@@ -224,6 +225,10 @@ class Diagnoser {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
       rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
                                  is_near ? share : shares[i], data_, options_);
+      const Role judged_role = data_.has(Role::held_out) ? Role::held_out : Role::train;
+      rows[i].selected_share = shares[i];
+      std::tie(rows[i].judged_low, rows[i].judged_high) =
+          resampled_error(refits[i], judged_role, data_, options_);
     }
     std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
       return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);
