@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
@@ -222,8 +223,7 @@ class Diagnoser {
     const Stage& stage = diagnosis.final_stage;
     return diagnosis.verdict == Verdict::nothing_missing ||
            (diagnosis.verdict == Verdict::missing &&
-            evidence_for_stated(stage.model, stage.parameters, stage.estimate, data_,
-                                options_.parameter_width) > std::log(options_.evidence));
+            evidence_for_stated(stage, data_, options_.parameter_width) > std::log(options_.evidence));
   }
 
   /// Starts anew from the model as given, with its own numbers free.
@@ -280,6 +280,10 @@ class Diagnoser {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
       rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
                                  is_near ? share : shares[i], data_, options_);
+      const Role judged_role = data_.has(Role::held_out) ? Role::held_out : Role::train;
+      rows[i].selected_share = shares[i];
+      std::tie(rows[i].judged_low, rows[i].judged_high) =
+          resampled_error(refits[i], judged_role, data_, options_);
     }
     std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
       return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);

@@ -124,9 +124,9 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
   return kept;
 }
 
-double evidence_for_stated(const model::Model& model, const std::vector<FreeParameter>& fitted,
-                           const Estimate& estimate, const Data& data, double width) {
-  const model::Model open = with_stated_errors(with_values(model, fitted, estimate.theta));
+double evidence_for_stated(const Stage& stage, const Data& data, double width) {
+  const std::vector<FreeParameter>& fitted = stage.parameters;
+  const model::Model open = with_stated_errors(with_values(stage.model, fitted, stage.estimate.theta));
   std::vector<FreeParameter> parameters = fitted;
   for (const FreeParameter& own : stated_parameters(open, width)) {
     parameters.push_back(own);
@@ -137,7 +137,7 @@ double evidence_for_stated(const model::Model& model, const std::vector<FreePara
   const Eigen::VectorXd units = search_units(parameters, theta);
   PredictorPool pool(open, data);
   Equations sum{Eigen::MatrixXd::Zero(theta.size(), theta.size()), Eigen::VectorXd::Zero(theta.size())};
-  for (const Reduced& one : reduce(pool, data.all_windows(), parameters, theta, estimate.x0, units)) {
+  for (const Reduced& one : reduce(pool, data.all_windows(), parameters, theta, stage.estimate.x0, units)) {
     sum.H += one.H;
     sum.g += one.g;
   }
@@ -153,13 +153,13 @@ double evidence_for_stated(const model::Model& model, const std::vector<FreePara
   return 0.5 * (known.vectorD().array().abs().log().sum() - left.g.dot(known.solve(left.g)));
 }
 
-std::vector<OwnParameter> own_values(const std::vector<FreeParameter>& parameters,
-                                     const Eigen::VectorXd& theta) {
+std::vector<OwnParameter> own_values(const Stage& stage) {
   std::vector<OwnParameter> own;
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (std::isfinite(parameters[p].deviation)) {
-      own.push_back({parameters[p].label, parameters[p].unit, parameters[p].mean, parameters[p].deviation,
-                     theta[static_cast<Eigen::Index>(p)]});
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    const FreeParameter& one = stage.parameters[p];
+    if (std::isfinite(one.deviation)) {
+      own.push_back(
+          {one.label, one.unit, one.mean, one.deviation, stage.estimate.theta[static_cast<Eigen::Index>(p)]});
     }
   }
   return own;
