@@ -9,6 +9,8 @@
 #include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/unexplained.h"
+#include "validation/report/result_json.h"
+#include "validation/report/sentences.h"
 
 namespace plumbline::cli {
 namespace {
@@ -21,92 +23,7 @@ using validation::ParameterValue;
 using validation::RankRow;
 using validation::Verdict;
 
-nlohmann::json to_json(const RankRow& row) {
-  return {{"effect", row.effect},
-          {"at", row.at},
-          {"score", row.score},
-          {"held_out_after", row.held_out_after},
-          {"train_after", row.train_after},
-          {"refitted", row.refitted},
-          {"remark", row.remark}};
-}
-
-nlohmann::json to_json(const Finding& finding) {
-  nlohmann::json json{{"effect", finding.effect},
-                      {"at", finding.at},
-                      {"held_out_before", finding.held_out_before},
-                      {"held_out_after", finding.held_out_after},
-                      {"train_before", finding.train_before},
-                      {"train_after", finding.train_after},
-                      {"selected_share", finding.selected_share},
-                      {"rivals", nlohmann::json::array()},
-                      {"parameters", nlohmann::json::array()}};
-  for (const Named& rival : finding.rivals) {
-    json["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
-  }
-  for (const ParameterValue& p : finding.parameters) {
-    json["parameters"].push_back(
-        {{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"standard_deviation", p.deviation}});
-  }
-  return json;
-}
-
-std::vector<OwnParameter> own_parameters(const Diagnosis& diagnosis) {
-  const validation::Stage& stage = diagnosis.final_stage;
-  return validation::own_values(stage.parameters, stage.estimate.theta);
-}
-
-nlohmann::json to_json(const Diagnosis& diagnosis) {
-  nlohmann::json json;
-  json["verdict"] = validation::to_string(diagnosis.verdict);
-  json["unexplained_share"] = diagnosis.unexplained_share;
-  json["candidates"] = diagnosis.candidates;
-  json["interrupted"] = diagnosis.interrupted;
-  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "ladder"}) {
-    json[key] = nlohmann::json::array();
-  }
-  for (const Finding& finding : diagnosis.accepted) {
-    json["accepted"].push_back(to_json(finding));
-  }
-  for (const RankRow& row : diagnosis.ranking) {
-    json["ranking"].push_back(to_json(row));
-  }
-  for (const RankRow& row : diagnosis.leads) {
-    json["leads"].push_back(to_json(row));
-  }
-  for (const OwnParameter& own : own_parameters(diagnosis)) {
-    json["own_parameters"].push_back({{"parameter", own.label},
-                                      {"unit", own.unit},
-                                      {"stated", own.stated},
-                                      {"stated_deviation", own.stated_deviation},
-                                      {"value", own.value},
-                                      {"shift", own.shift()}});
-  }
-  for (const validation::Rung& rung : diagnosis.ladder) {
-    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});
-  }
-  return json;
-}
-
 using validation::UnexplainedForce;
-
-nlohmann::json to_json(const UnexplainedForce& force) {
-  nlohmann::json json{{"trial", force.trial},
-                      {"motor", force.motor},
-                      {"unit", force.unit},
-                      {"rms", force.rms},
-                      {"relative", force.relative},
-                      {"words", force.words},
-                      {"dependences", nlohmann::json::array()}};
-  for (const validation::Dependence& d : force.dependences) {
-    json["dependences"].push_back({{"variable", d.variable},
-                                   {"unit", d.unit},
-                                   {"share", d.share},
-                                   {"center", d.center},
-                                   {"mean", d.mean}});
-  }
-  return json;
-}
 
 /// The force that the final model does not explain, where the inverse model can tell.
 void print_unexplained(const std::vector<UnexplainedForce>& forces) {
@@ -141,30 +58,12 @@ void print_verdict(const Diagnosis& diagnosis) {
                last.held_out());
     return;
   }
-  switch (diagnosis.verdict) {
-    case Verdict::nothing_missing:
-      fmt::print(
-          "Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
-          "alone would leave.\n",
-          last.held_out());
-      return;
-    case Verdict::unexplained:
-      fmt::print(
-          "Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
-          "explains it.{}\n",
-          last.held_out(),
-          diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
-      break;
-    case Verdict::missing:
-      break;
+  const std::string verdict = validation::verdict_sentence(diagnosis);
+  if (!verdict.empty()) {
+    fmt::print("{}\n", verdict);
   }
   for (const Finding& finding : diagnosis.accepted) {
-    fmt::print(
-        "{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
-        "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
-        diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at,
-        finding.held_out_before, finding.held_out_after, finding.train_before, finding.train_after,
-        100.0 * finding.selected_share);
+    fmt::print("{}\n", validation::finding_sentences(finding, diagnosis.verdict));
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
       fmt::print("  {} = {:.4g} +- {:.2g} {}\n", p.name, p.value, p.deviation, p.unit);
@@ -218,7 +117,7 @@ void print(const Diagnosis& diagnosis) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out())});
   }
   print_table({"model", "train", "held-out"}, rows);
-  print_own_parameters(own_parameters(diagnosis));
+  print_own_parameters(validation::own_values(diagnosis.final_stage));
   if (!diagnosis.ranking.empty()) {
     fmt::print("\nBest candidates of the first round, of {} screened:\n\n", diagnosis.candidates);
     print_rows(diagnosis.ranking, 10);
@@ -292,12 +191,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       left = validation::unexplained_forces(
           validation::with_values(stage.model, stage.parameters, stage.estimate.theta), *loaded.data);
     }
-    nlohmann::json json = to_json(diagnosis);
-    json["unexplained_forces"] = nlohmann::json::array();
-    for (const UnexplainedForce& force : left) {
-      json["unexplained_forces"].push_back(to_json(force));
-    }
-    write_json(json, options->inputs.json);
+    write_json(validation::to_json(diagnosis, left), options->inputs.json);
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
       save_model(diagnosis, loaded.model, options->save);
     }

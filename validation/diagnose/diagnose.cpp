@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
@@ -111,12 +112,16 @@ class Diagnoser {
             const Progress& progress)
       : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
 
+  /// First with the model's own numbers exactly as stated. If that gives no answer, or the data speak for
+  /// other numbers, anew with the numbers free within what is stated of them.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
-    for (int round = 0; round < options_.most_effects; ++round) {
-      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
-        break;
-      }
+    const Stage open = with_open_numbers(diagnosis.final_stage);
+    take_steps(open.parameters.empty() ? options_.most_effects : options_.most_as_stated, diagnosis);
+    conclude(diagnosis);
+    if (!open.parameters.empty() && !speaks_for_stated(diagnosis)) {
+      fit_own(open, diagnosis);
+      take_steps(options_.most_effects, diagnosis);
     }
   }
 
@@ -194,17 +199,45 @@ class Diagnoser {
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.estimate = given;
-    const model::Model open = with_stated_errors(model);
-    PredictorPool open_pool(open, data_);
-    const std::vector<FreeParameter> own =
-        noticeable_parameters(open_pool, stated_parameters(open, options_.parameter_width), given.x0);
-    // The stage changes as a whole: an interruption must not leave parameters without their values.
-    if (!own.empty()) {
-      progress_("the model's own parameters", 0.5);
-      const Estimate fitted = gauss_newton(open_pool, own, values_of(open, own), given.x0, {10, 1e-4});
-      stage = {open, own, fitted};
-      diagnosis.ladder.push_back({"own parameters fitted", stage});
+  }
+
+  void take_steps(int most, Diagnosis& diagnosis) {
+    for (int round = 0; round < most; ++round) {
+      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
+        break;
+      }
     }
+  }
+
+  /// The stage with the numbers that its model states with an uncertainty as free parameters, not yet fitted.
+  Stage with_open_numbers(const Stage& given) const {
+    Stage open{with_stated_errors(given.model), {}, given.estimate};
+    PredictorPool pool(open.model, data_);
+    open.parameters = noticeable_parameters(pool, stated_parameters(open.model, options_.parameter_width),
+                                            given.estimate.x0);
+    return open;
+  }
+
+  /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
+  bool speaks_for_stated(const Diagnosis& diagnosis) const {
+    const Stage& stage = diagnosis.final_stage;
+    return diagnosis.verdict == Verdict::nothing_missing ||
+           (diagnosis.verdict == Verdict::missing &&
+            evidence_for_stated(stage, data_, options_.parameter_width) > std::log(options_.evidence));
+  }
+
+  /// Starts anew from the model as given, with its own numbers free.
+  void fit_own(const Stage& open, Diagnosis& diagnosis) const {
+    const Rung given = diagnosis.ladder.front();
+    progress_("the model's own parameters", 0.5);
+    PredictorPool pool(open.model, data_);
+    const Stage fitted{open.model, open.parameters,
+                       gauss_newton(pool, open.parameters, values_of(open.model, open.parameters),
+                                    open.estimate.x0, {10, 1e-4})};
+    // As a whole: an interruption must not leave parameters without their values.
+    diagnosis = Diagnosis();
+    diagnosis.ladder = {given, {"own parameters fitted", fitted}};
+    diagnosis.final_stage = fitted;
   }
 
   bool step(Diagnosis& diagnosis, int round) {
@@ -247,6 +280,10 @@ class Diagnoser {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
       rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
                                  is_near ? share : shares[i], data_, options_);
+      const Role judged_role = data_.has(Role::held_out) ? Role::held_out : Role::train;
+      rows[i].selected_share = shares[i];
+      std::tie(rows[i].judged_low, rows[i].judged_high) =
+          resampled_error(refits[i], judged_role, data_, options_);
     }
     std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
       return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);

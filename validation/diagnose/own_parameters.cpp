@@ -1,5 +1,7 @@
 #include "validation/diagnose/own_parameters.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,25 @@ model::EffectUse open_number(const std::string& law, const std::string& at, doub
   quantity.source = source;
   use.values.push_back(quantity);
   return use;
+}
+
+/// Normal equations of a few parameters.
+struct Equations {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+};
+
+/// The equations of the last parameters after the first `count` have moved as the others ask.
+Equations without_first(const Equations& all, Eigen::Index count) {
+  const Eigen::Index rest = all.g.size() - count;
+  Equations left{all.H.bottomRightCorner(rest, rest), all.g.tail(rest)};
+  if (count > 0) {
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> first(all.H.topLeftCorner(count, count));
+    const Eigen::MatrixXd cross = all.H.bottomLeftCorner(rest, count);
+    left.H -= cross * first.solve(cross.transpose());
+    left.g -= cross * first.solve(all.g.head(count));
+  }
+  return left;
 }
 
 double inertia_deviation(const model::Model& model, const model::Motor& motor) {
@@ -103,13 +124,42 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
   return kept;
 }
 
-std::vector<OwnParameter> own_values(const std::vector<FreeParameter>& parameters,
-                                     const Eigen::VectorXd& theta) {
+double evidence_for_stated(const Stage& stage, const Data& data, double width) {
+  const std::vector<FreeParameter>& fitted = stage.parameters;
+  const model::Model open = with_stated_errors(with_values(stage.model, fitted, stage.estimate.theta));
+  std::vector<FreeParameter> parameters = fitted;
+  for (const FreeParameter& own : stated_parameters(open, width)) {
+    parameters.push_back(own);
+  }
+  const auto first = static_cast<Eigen::Index>(fitted.size());
+  const auto own = static_cast<Eigen::Index>(parameters.size()) - first;
+  const Eigen::VectorXd theta = values_of(open, parameters);
+  const Eigen::VectorXd units = search_units(parameters, theta);
+  PredictorPool pool(open, data);
+  Equations sum{Eigen::MatrixXd::Zero(theta.size(), theta.size()), Eigen::VectorXd::Zero(theta.size())};
+  for (const Reduced& one : reduce(pool, data.all_windows(), parameters, theta, stage.estimate.x0, units)) {
+    sum.H += one.H;
+    sum.g += one.g;
+  }
+  Equations left = without_first(sum, first);
+  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta).tail(own).cwiseAbs();
+  for (Eigen::Index p = 0; p < own; ++p) {
+    const double deviation = parameters[static_cast<std::size_t>(first + p)].deviation / slopes[p];
+    left.g[p] *= deviation;
+    left.H.row(p) *= deviation;
+    left.H.col(p) *= deviation;
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> known(left.H + Eigen::MatrixXd::Identity(own, own));
+  return 0.5 * (known.vectorD().array().abs().log().sum() - left.g.dot(known.solve(left.g)));
+}
+
+std::vector<OwnParameter> own_values(const Stage& stage) {
   std::vector<OwnParameter> own;
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (std::isfinite(parameters[p].deviation)) {
-      own.push_back({parameters[p].label, parameters[p].unit, parameters[p].mean, parameters[p].deviation,
-                     theta[static_cast<Eigen::Index>(p)]});
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    const FreeParameter& one = stage.parameters[p];
+    if (std::isfinite(one.deviation)) {
+      own.push_back(
+          {one.label, one.unit, one.mean, one.deviation, stage.estimate.theta[static_cast<Eigen::Index>(p)]});
     }
   }
   return own;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/predict/estimate.h"
+#include "validation/diagnose/screen.h"
 
 namespace plumbline::validation {
 
@@ -24,6 +24,15 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
                                                  const std::vector<FreeParameter>& parameters,
                                                  const std::vector<Eigen::VectorXd>& x0);
 
+/// How much more probable the data are with every own parameter exactly as stated than with them scattered as
+/// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with S and g the normal
+/// equations of the own parameters in stated deviations, those of the stage eliminated,
+///   log B = (log det(I + S) - g' (I + S)^-1 g) / 2.
+/// Above zero the data speak for the stated numbers. The stage's own numbers are as stated.
+/// Source: Dickey, Annals of Mathematical Statistics 42, 1971; Kass and Raftery, J. American Statistical
+/// Association 90, 1995.
+double evidence_for_stated(const Stage& stage, const Data& data, double width);
+
 /// An own parameter as it was fitted.
 struct OwnParameter {
   std::string label, unit;  ///< "torque_constant_error@mLA:scale"
@@ -34,7 +43,6 @@ struct OwnParameter {
 };
 
 /// The own parameters among a stage's: those of which something is known beforehand.
-std::vector<OwnParameter> own_values(const std::vector<FreeParameter>& parameters,
-                                     const Eigen::VectorXd& theta);
+std::vector<OwnParameter> own_values(const Stage& stage);
 
 }  // namespace plumbline::validation

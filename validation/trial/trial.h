@@ -11,6 +11,8 @@
 namespace plumbline::validation {
 
 enum class Role { train, held_out };
+/// "train", "held-out"
+std::string to_string(Role role);
 
 /// A channel measured by one of the model's sensors.
 struct Measured {

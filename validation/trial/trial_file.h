@@ -56,7 +56,6 @@ void check_version(const model::YamlNode& root, const std::string& version);
 
 /// train or held-out.
 Role read_role(const model::YamlNode& node);
-std::string to_string(Role role);
 
 /// The trial.yaml that a path to it or to its folder means.
 std::string trial_yaml(const std::string& path);
