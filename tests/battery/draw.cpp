@@ -57,8 +57,11 @@ double of_strength(const std::string& text, Strength strength) {
   for (std::string part; std::getline(all, part, '|');) {
     parts.push_back(part);
   }
-  if (parts.size() == 2 && strength == Strength::medium) {
-    throw std::invalid_argument("'" + text + "' has no medium strength");
+  if (parts.size() == 1) {
+    return number(text);
+  }
+  if (parts.size() != 3 && (parts.size() != 2 || strength == Strength::medium)) {
+    throw std::invalid_argument("'" + text + "' does not say how strong " + to_string(strength) + " is");
   }
   return number(strength == Strength::weak     ? parts.front()
                 : strength == Strength::medium ? parts[1]
