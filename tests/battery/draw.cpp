@@ -108,7 +108,9 @@ std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, D
     const Nominal nominal = read_value(item.substr(equal + 1), one.strength);
     const bool structural = law->declaration().parameters[static_cast<std::size_t>(index)].structural;
     const double factor = structural ? 1.0 : draw.factor();
-    text += fmt::format("{}{}={:.6g}", separator, parameter, nominal.base + factor * nominal.varied);
+    // What is added to a base may be small beside it.
+    const int digits = nominal.base != 0.0 ? 9 : 6;
+    text += fmt::format("{}{}={:.{}g}", separator, parameter, nominal.base + factor * nominal.varied, digits);
     separator = ',';
   }
   return text;

@@ -4,8 +4,7 @@ namespace plumbline::battery {
 
 // Nominal values: weak, medium and strong leave the model as it is with a held-out error of about 2.5, 6 and
 // 18 floors. Where the model states an uncertainty of the same number (its friction, springs and masses) weak
-// is four of these deviations, so that the model's own parameter cannot take it up. A scale of the rail's
-// encoder is as large as six digits can tell.
+// is four of these deviations, so that the model's own parameter cannot take it up.
 const std::vector<Row>& hopper_rows() {
   static const std::vector<Row> kRows{
       {"viscous", "drive", "damping=8e-4|1.6e-3|3e-3"},
@@ -78,7 +77,7 @@ const std::vector<Row>& hopper_rows() {
       {"added_mass", "slider", "mass=0.064|0.13|0.3"},
       {"added_mass", "foot", "mass=0.028|0.06|0.12"},
       {"encoder_offset", "height", "offset=1.5e-5|4.1e-5|0.00012"},
-      {"encoder_scale", "height", "scale=1+2e-4|4e-4|8e-4"},
+      {"encoder_scale", "height", "scale=1+3.7e-5|1e-4|3.1e-4"},
       {"encoder_offset", "drive", "offset=0.005|0.015|0.045"},
       {"encoder_scale", "drive", "scale=1+6e-4|1.8e-3|6e-3"},
       {"encoder_offset", "spring", "offset=1.3e-5|3.6e-5|0.00011"},
