@@ -60,8 +60,14 @@ double of_strength(const std::string& text, Strength strength) {
   for (std::string part; std::getline(all, part, '|');) {
     parts.push_back(part);
   }
+  if (parts.size() == 1) {
+    return number(text);
+  }
   if (parts.size() == 2 && strength == Strength::medium) {
     return std::copysign(std::sqrt(number(parts[0]) * number(parts[1])), number(parts[0]));
+  }
+  if (parts.size() > 3) {
+    throw std::invalid_argument("'" + text + "' gives more than three strengths");
   }
   return number(strength == Strength::weak     ? parts.front()
                 : strength == Strength::medium ? parts[1]
@@ -118,7 +124,9 @@ std::string drawn_effect(const Row& row, Strength strength, const effects::Catal
     const Nominal nominal = read_value(item.substr(equal + 1), strength);
     const bool structural = law->declaration().parameters[static_cast<std::size_t>(index)].structural;
     const double factor = structural ? 1.0 : draw.factor();
-    text += fmt::format("{}{}={:.6g}", separator, parameter, nominal.base + factor * nominal.varied);
+    // What is added to a base may be small beside it.
+    const int digits = nominal.base != 0.0 ? 9 : 6;
+    text += fmt::format("{}{}={:.{}g}", separator, parameter, nominal.base + factor * nominal.varied, digits);
     separator = ',';
   }
   return text;

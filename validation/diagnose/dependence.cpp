@@ -116,8 +116,11 @@ std::vector<Dependence> dependences_of(const ForceSamples& s) {
   if (s.angular) {
     all.push_back(depend_on_turn(s));
   }
-  // A force that follows the variable itself also changes its size with it: that is the lesser statement.
-  const auto weight = [](const Dependence& d) { return d.of_size ? 0.5 * d.share : d.share; };
+  // A force that follows the variable itself also changes its size with it: that is the lesser statement. And
+  // what two bins say as well as twelve is said by two.
+  const auto weight = [](const Dependence& d) {
+    return d.of_size ? 0.5 * d.share : d.variable == "direction" ? 1.05 * d.share : d.share;
+  };
   std::stable_sort(all.begin(), all.end(),
                    [&](const Dependence& a, const Dependence& b) { return weight(a) > weight(b); });
   return all;

@@ -23,9 +23,17 @@ double four_digits(double value) {
   return std::round(value * unit) / unit;
 }
 
+/// Mean squares of a window's sampled channels, in units of the floor.
+Eigen::VectorXd window_squares(const Stage& stage, const Data& data, std::size_t w) {
+  const Window& window = data.windows[w];
+  const auto& measured = data.trials[static_cast<std::size_t>(window.trial)].measured;
+  return stage.estimate.square[w].head(static_cast<Eigen::Index>(measured.size())) /
+         static_cast<double>(window.count);
+}
+
 /// Root mean square over the channels of a window, in units of the floor.
 double window_ratio(const Stage& stage, const Data& data, std::size_t w) {
-  return std::sqrt(stage.estimate.square[w].mean() / static_cast<double>(data.windows[w].count));
+  return std::sqrt(window_squares(stage, data, w).mean());
 }
 
 /// Indices of a trial's windows (of all trials when it is negative), those with the largest error first.
@@ -56,8 +64,8 @@ json windows_json(const Data& data, std::size_t trial, const std::vector<Drawn>&
     for (const Drawn& one : drawn) {
       ratios.push_back(four_digits(window_ratio(*one.stage, data, w)));
       json by_channel = json::array();
-      for (const double square : one.stage->estimate.square[w]) {
-        by_channel.push_back(four_digits(std::sqrt(square / static_cast<double>(window.count))));
+      for (const double square : window_squares(*one.stage, data, w)) {
+        by_channel.push_back(four_digits(std::sqrt(square)));
       }
       channels.push_back(by_channel);
     }
@@ -115,11 +123,21 @@ json shares_json(const PhaseTable& table, Eigen::Index samples) {
   return shares;
 }
 
+/// Stated events, touchdowns and lift-offs.
+std::vector<double> event_times(const Trial& trial) {
+  std::vector<double> times = trial.events;
+  for (const ContactEvent& event : trial.contact_events) {
+    times.push_back(event.time);
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 /// The place of a trial's first channel in Comparison::channels.
 std::size_t first_channel(const Data& data, std::size_t trial) {
   std::size_t first = 0;
   for (std::size_t t = 0; t < trial; ++t) {
-    first += data.trials[t].measured.size();
+    first += data.trials[t].measured.size() + data.trials[t].switches.size();
   }
   return first;
 }
@@ -198,7 +216,7 @@ json trial_json(const Data& data, std::size_t trial, const std::vector<Drawn>& d
            {"role", to_string(of.role)},
            {"period", of.period},
            {"samples", of.samples()},
-           {"events", of.events},
+           {"events", event_times(of)},
            {"points", points},
            {"time", floats(thinned_time(of.time, blocks))},
            {"windows", windows_json(data, trial, drawn)},
