@@ -7,6 +7,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/diagnose/diagnose.h"
+#include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/unexplained.h"
 #include "validation/report/result_json.h"
 #include "validation/report/sentences.h"
@@ -17,6 +18,7 @@ namespace {
 using validation::Diagnosis;
 using validation::Finding;
 using validation::Named;
+using validation::OwnParameter;
 using validation::ParameterValue;
 using validation::RankRow;
 using validation::Verdict;
@@ -93,6 +95,20 @@ void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
   print_table({"effect", "at", "train", "held-out", "", "remark"}, rows);
 }
 
+/// What the fit made of the numbers that the model states with an uncertainty.
+void print_own_parameters(const std::vector<OwnParameter>& parameters) {
+  if (parameters.empty()) {
+    return;
+  }
+  fmt::print("\nThe model's own numbers, within what is stated of them:\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const OwnParameter& p : parameters) {
+    rows.push_back({p.label, fmt::format("{:.4g} +- {:.2g} {}", p.stated, p.stated_deviation, p.unit),
+                    fmt::format("{:.4g}", p.value), fmt::format("{:+.1f}", p.shift())});
+  }
+  print_table({"parameter", "stated", "fitted", "shift in deviations"}, rows);
+}
+
 void print(const Diagnosis& diagnosis) {
   print_verdict(diagnosis);
   fmt::print("\nLadder (error in units of the floor):\n\n");
@@ -101,6 +117,7 @@ void print(const Diagnosis& diagnosis) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out())});
   }
   print_table({"model", "train", "held-out"}, rows);
+  print_own_parameters(validation::own_values(diagnosis.final_stage));
   if (!diagnosis.ranking.empty()) {
     fmt::print("\nBest candidates of the first round, of {} screened:\n\n", diagnosis.candidates);
     print_rows(diagnosis.ranking, 10);
@@ -111,15 +128,19 @@ void print(const Diagnosis& diagnosis) {
   }
 }
 
-void save_model(const Diagnosis& diagnosis, const std::string& base, const std::string& file) {
+/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
+void save_model(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
   std::vector<model::AddedEffect> added;
   std::vector<model::NewValue> values;
   validation::Stage stage = diagnosis.final_stage;
   stage.model = validation::with_values(stage.model, stage.parameters, stage.estimate.theta);
-  const std::size_t own = stage.model.effects.size() - diagnosis.accepted.size();
+  const std::size_t own = given.effects.size();
   for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
     const model::EffectUse& use = stage.model.effects[e];
-    added.push_back({use.law->declaration().name, use.at, use.numbers()});
+    const effects::Values numbers = use.numbers();
+    if (!use.law->is_null(numbers.data())) {
+      added.push_back({use.law->declaration().name, use.at, numbers});
+    }
   }
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
     const auto& parameter = stage.parameters[p];
@@ -128,7 +149,7 @@ void save_model(const Diagnosis& diagnosis, const std::string& base, const std::
                         parameter.unit, "diagnose"});
     }
   }
-  model::write_overlay(file, base, added, values, "written by plumbline diagnose");
+  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose");
 }
 
 }  // namespace
@@ -171,7 +192,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     }
     write_json(validation::to_json(diagnosis, left), options->inputs.json);
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
-      save_model(diagnosis, loaded.model.file, options->save);
+      save_model(diagnosis, loaded.model, options->save);
     }
     print(diagnosis);
     print_unexplained(left);

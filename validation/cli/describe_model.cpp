@@ -98,6 +98,10 @@ void print_sensors(const Model& model) {
                     fmt::format("{:.3g} {}", sensor.floor(), unit)});
   }
   fmt::print("\nSensors:\n\n");
+  for (const model::ContactSwitch& one : model.switches) {
+    rows.push_back({one.name, "contact of " + model.feet[static_cast<std::size_t>(one.foot)].name,
+                    "open/closed", "", "sample period/sqrt(12)"});
+  }
   print_table({"name", "measures", "resolution", "noise", "floor"}, rows);
 }
 

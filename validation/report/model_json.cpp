@@ -110,6 +110,14 @@ json sensors_json(const Model& model) {
   return list;
 }
 
+json switches_json(const Model& model) {
+  json list = json::array();
+  for (const model::ContactSwitch& one : model.switches) {
+    list.push_back({{"name", one.name}, {"foot", model.feet[static_cast<std::size_t>(one.foot)].name}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string unit_of(const model::Model& model, const model::EffectUse& use, std::size_t parameter) {
@@ -142,6 +150,7 @@ nlohmann::json model_json(const model::Model& model) {
           {"inertias", inertias_json(model)},
           {"effects", effects_json(model)},
           {"sensors", sensors_json(model)},
+          {"contact_switches", switches_json(model)},
           {"places", places}};
 }
 

@@ -1,5 +1,6 @@
 #include "validation/report/result_json.h"
 
+#include "validation/diagnose/own_parameters.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::validation {
@@ -90,7 +91,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["unexplained_share"] = diagnosis.unexplained_share;
   json["candidates"] = diagnosis.candidates;
   json["interrupted"] = diagnosis.interrupted;
-  for (const char* key : {"accepted", "ranking", "leads", "ladder"}) {
+  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "ladder"}) {
     json[key] = nlohmann::json::array();
   }
   for (const Finding& finding : diagnosis.accepted) {
@@ -101,6 +102,14 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   }
   for (const RankRow& row : diagnosis.leads) {
     json["leads"].push_back(to_json(row));
+  }
+  for (const OwnParameter& own : own_values(diagnosis.final_stage)) {
+    json["own_parameters"].push_back({{"parameter", own.label},
+                                      {"unit", own.unit},
+                                      {"stated", own.stated},
+                                      {"stated_deviation", own.stated_deviation},
+                                      {"value", own.value},
+                                      {"shift", own.shift()}});
   }
   for (const Rung& rung : diagnosis.ladder) {
     json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});

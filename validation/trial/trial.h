@@ -22,6 +22,13 @@ struct Measured {
   Eigen::VectorXd values;  ///< SI
 };
 
+/// A contact switch's record: 1 closed, 0 open.
+struct SwitchRecord {
+  std::string name;  ///< of a contact switch of the model
+  std::string column;
+  Eigen::VectorXd values;
+};
+
 /// A recorded command of one motor, held over each sample.
 struct Command {
   std::string motor;
@@ -46,6 +53,15 @@ struct Controller {
   Eigen::VectorXd disturbance;  ///< added to the command, empty: none
 };
 
+/// An instant at which a contact switch closed (touchdown) or opened (lift-off): half a sample before the
+/// first sample that shows it, uncertain by half a sample either way.
+struct ContactEvent {
+  double time = 0.0;  ///< s
+  Eigen::Index sample = 0;
+  int record = 0;  ///< index in Trial::switches
+  bool touchdown = true;
+};
+
 struct Trial {
   std::string file;  ///< trial.yaml
   std::string name;  ///< folder name
@@ -59,10 +75,19 @@ struct Trial {
   std::vector<Command> commands;
   std::vector<Lock> locks;
   std::vector<Controller> controllers;
-  std::vector<double> events;  ///< times at which windows are cut (contact later)
+  std::vector<double> events;  ///< times at which windows are cut
+  std::vector<SwitchRecord> switches;
+  std::vector<ContactEvent> contact_events;  ///< of `switches`, in the order of time
 
   Eigen::Index samples() const { return time.size(); }
 };
+
+/// Standard deviation of a contact event's time when it may lie anywhere in a sample period: T/sqrt(12).
+double timing_floor(const Trial& trial);
+
+/// Where the trial's switches change. A change back within `shortest` samples is bouncing of the switch or of
+/// the foot, and no event: both changes are left out.
+std::vector<ContactEvent> contact_events(const Trial& trial, Eigen::Index shortest = 8);
 
 struct TrialOptions {
   std::string data_folder;  ///< replaces the trial's data folder; empty: as the trial says

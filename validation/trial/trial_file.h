@@ -73,6 +73,9 @@ std::string placed_unit(const model::YamlNode& node, const std::string& name, co
 const model::Motor& known_motor(const model::YamlNode& node, const std::string& name,
                                 const model::Model& model);
 
+/// A controller's kind, motor, sensor and constants; its recorded signals are left empty.
+Controller read_controller_law(const model::YamlNode& node, const model::Model& model);
+
 TrialFile read_trial_file(const std::string& path, const model::Model& model);
 
 }  // namespace plumbline::validation
