@@ -72,6 +72,19 @@ TEST_F(Interrupt, FitWritesNothing) {
   EXPECT_THAT(changed_since(before), testing::IsEmpty());
 }
 
+TEST_F(Interrupt, ReportWritesNoHalfPage) {
+  make_long_trial();
+  const auto before = snapshot();
+  for (const std::string how : {"--most=1", "--no-diagnose"}) {
+    const Outcome outcome =
+        interrupted_at(how == "--no-diagnose" ? "comparing model.yaml" : "the model as given",
+                       {"report", "long/steps", how, "-o", "r.html", "--json", "r.json"});
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user"));
+    EXPECT_THAT(changed_since(before), testing::IsEmpty());
+  }
+}
+
 TEST_F(Interrupt, SimulateWritesNothing) {
   replace("experiments/swing.yaml", "duration: {value: 2, unit: s}", "duration: {value: 1000, unit: s}");
   const auto before = snapshot();
