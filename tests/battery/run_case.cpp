@@ -15,11 +15,15 @@ namespace {
 
 constexpr double kTwinTolerance = 1e-9;
 
-/// Varies what a command does about its mean, which holds the robot against gravity.
+/// Varies what a command does about its mean, which holds the robot against gravity, and what a controller is
+/// asked to follow.
 void vary_amplitudes(validation::Experiment& experiment, Draw& draw) {
   for (validation::Command& command : experiment.commands) {
     const double mean = command.values.mean();
     command.values = (mean + draw.factor() * (command.values.array() - mean)).matrix();
+  }
+  for (validation::Controller& controller : experiment.controllers) {
+    controller.reference *= draw.factor();
   }
 }
 

@@ -29,10 +29,10 @@ TEST(ContactEvents, LieHalfASampleBeforeTheFirstSampleThatShowsThem) {
 }
 
 TEST(ContactEvents, ABounceIsNone) {
-  const std::vector<ContactEvent> events = contact_events(switched({30, 33, 36, 80}, 200));
+  const std::vector<ContactEvent> events = contact_events(switched({30, 45, 60, 90}, 200));
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].sample, 30);
-  EXPECT_EQ(events[1].sample, 80);
+  EXPECT_EQ(events[1].sample, 90);
 }
 
 TEST(ContactEvents, TheirFloorIsThatOfTheSampling) {

@@ -149,7 +149,8 @@ void save_model(const Diagnosis& diagnosis, const model::Model& given, const std
                         parameter.unit, "diagnose"});
     }
   }
-  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose");
+  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
+                       model::known_effects());
 }
 
 }  // namespace

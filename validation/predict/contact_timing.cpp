@@ -27,6 +27,10 @@ double zero_of(const model::FootDepth& a, const model::FootDepth& b, double h) {
   return 0.5 * (low + high);
 }
 
+/// A predicted instant that is farther off counts as none, and costs as much as one that is as far off: a
+/// foot that just leaves the ground in one motion and just not in the other must not outweigh all else; s.
+constexpr double kFarthest = 0.01;
+
 /// Slower than this a foot does not cross the surface, it lies on it; m/s.
 constexpr double kSlowest = 1e-4;
 
@@ -50,7 +54,7 @@ void Predictor::stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Ind
 
 Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double time) {
   Crossing nearest;
-  nearest.time = node_times_[static_cast<std::size_t>(nodes_ - 1)];
+  nearest.time = time + kFarthest;
   model::FootDepth before = plant_.foot_depth(foot, states_.col(0).data());
   for (Eigen::Index n = 0; n + 1 < nodes_; ++n) {
     const model::FootDepth behind = plant_.foot_depth(foot, states_.col(n + 1).data());
@@ -58,7 +62,7 @@ Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double
       const double h = length_of(n);
       const double share = zero_of(before, behind, h);
       const double at = node_times_[static_cast<std::size_t>(n)] + share * h;
-      if (nearest.node < 0 || std::abs(at - time) < std::abs(nearest.time - time)) {
+      if (std::abs(at - time) < std::abs(nearest.time - time)) {
         nearest = {n, share, at, (1.0 - share) * before.rate + share * behind.rate};
       }
     }
@@ -67,7 +71,6 @@ Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double
   return nearest;
 }
 
-// A touchdown or lift-off that is not predicted at all counts as one at the window's end.
 std::vector<Predictor::Crossing> Predictor::crossings_of(const Window& window) {
   std::vector<Crossing> all;
   for (const int e : window.events) {
@@ -75,7 +78,7 @@ std::vector<Predictor::Crossing> Predictor::crossings_of(const Window& window) {
     const int foot = foot_of_switch_[static_cast<std::size_t>(event.record)];
     if (foot < 0 || !plant_.meets_ground()) {
       all.push_back({});
-      all.back().time = static_cast<double>(window.count - 1) * trial_.period;
+      all.back().time = event.time - trial_.time[window.first] + kFarthest;
     } else {
       all.push_back(nearest_crossing(foot, event.touchdown, event.time - trial_.time[window.first]));
     }

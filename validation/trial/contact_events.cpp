@@ -35,11 +35,12 @@ std::vector<Eigen::Index> without_bounces(const std::vector<Eigen::Index>& chang
 
 double timing_floor(const Trial& trial) { return trial.period / std::sqrt(12.0); }
 
-std::vector<ContactEvent> contact_events(const Trial& trial, Eigen::Index shortest) {
+std::vector<ContactEvent> contact_events(const Trial& trial, double shortest) {
+  const auto fewest = static_cast<Eigen::Index>(std::lround(shortest / trial.period));
   std::vector<ContactEvent> events;
   for (std::size_t r = 0; r < trial.switches.size(); ++r) {
     const Eigen::VectorXd& values = trial.switches[r].values;
-    for (const Eigen::Index k : without_bounces(changes_of(values), shortest)) {
+    for (const Eigen::Index k : without_bounces(changes_of(values), fewest)) {
       events.push_back(
           {trial.time[k] - 0.5 * trial.period, k, static_cast<int>(r), values[k] > values[k - 1]});
     }

@@ -85,9 +85,9 @@ struct Trial {
 /// Standard deviation of a contact event's time when it may lie anywhere in a sample period: T/sqrt(12).
 double timing_floor(const Trial& trial);
 
-/// Where the trial's switches change. A change back within `shortest` samples is bouncing of the switch or of
-/// the foot, and no event: both changes are left out.
-std::vector<ContactEvent> contact_events(const Trial& trial, Eigen::Index shortest = 8);
+/// Where the trial's switches change. A change back within `shortest` seconds is bouncing of the switch or of
+/// the foot, which a small error of the model may miss, and no event: both changes are left out.
+std::vector<ContactEvent> contact_events(const Trial& trial, double shortest = 0.02);
 
 struct TrialOptions {
   std::string data_folder;  ///< replaces the trial's data folder; empty: as the trial says
