@@ -77,7 +77,8 @@ function shade(u) {
   if (state.window) paint(state.window.from, state.window.to, colour("worst"));
   context.fillStyle = colour("rival");
   for (const worst of worstWindows()) {
-    if (worst.trial === state.trial) context.fillRect(x(worst.from), top, x(worst.to) - x(worst.from) - devicePixelRatio, 2.5 * devicePixelRatio);
+    if (worst.trial !== state.trial || worst.to < u.scales.x.min || worst.from > u.scales.x.max) continue;
+    context.fillRect(x(worst.from), top, x(worst.to) - x(worst.from) - devicePixelRatio, 2.5 * devicePixelRatio);
   }
   context.strokeStyle = colour("event");
   context.lineWidth = 1.5 * devicePixelRatio;
