@@ -79,7 +79,7 @@ void print_verdict(const Diagnosis& diagnosis) {
       fmt::print("\n");
     }
   }
-  if (diagnosis.accepted.empty()) {
+  if (diagnosis.accepted.empty() || last.held_out() <= 0.0) {
     return;
   }
   fmt::print(
