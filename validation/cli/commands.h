@@ -22,5 +22,6 @@ void add_add(CLI::App& app, Outcome& outcome);
 void add_ladder(CLI::App& app, Outcome& outcome);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
+void add_render(CLI::App& app, Outcome& outcome);
 
 }  // namespace plumbline::cli

@@ -1,0 +1,98 @@
+#include "simulator/render/vtk_robot.h"
+
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+
+#include "simulator/render/vtk_solid.h"
+
+namespace plumbline::render {
+namespace {
+
+constexpr double kBehind = 4.0;  // units of depth by which a ghost gives way
+
+void make_matter(vtkProperty& property, const Color& color) {
+  property.SetColor(color.x(), color.y(), color.z());
+  property.SetInterpolationToPhong();
+  property.SetAmbient(0.22);
+  property.SetDiffuse(0.78);
+  property.SetSpecular(0.22);
+  property.SetSpecularPower(28.0);
+}
+
+/// Where parallel light that falls along `light` carries a point onto z = height.
+Eigen::Matrix4d projection(double height, const Eigen::Vector3d& light) {
+  Eigen::Matrix4d P = Eigen::Matrix4d::Identity();
+  P(0, 2) = -light.x() / light.z();
+  P(1, 2) = -light.y() / light.z();
+  P(0, 3) = -P(0, 2) * height;
+  P(1, 3) = -P(1, 2) * height;
+  P(2, 2) = 0.0;
+  P(2, 3) = height;
+  return P;
+}
+
+}  // namespace
+
+RobotActors::RobotActors(const Figure& figure, vtkRenderer* renderer) {
+  for (const Part& part : figure.parts) {
+    Item item{part.body, part.X_BP, part.color, {}, {}, {}, {}};
+    const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+    mapper->SetInputData(surface_of(part.solid));
+    mapper->ScalarVisibilityOff();
+    item.actor = vtkSmartPointer<vtkActor>::New();
+    item.actor->SetMapper(mapper);
+    make_matter(*item.actor->GetProperty(), part.color);
+    item.pose = vtkSmartPointer<vtkMatrix4x4>::New();
+    item.actor->SetUserMatrix(item.pose);
+    renderer->AddActor(item.actor);
+    items_.push_back(item);
+  }
+}
+
+void RobotActors::place(const Snapshot& shot, double spring) {
+  for (Item& item : items_) {
+    const auto body = static_cast<std::size_t>(item.body);
+    const Eigen::Matrix4d X = (shot.poses[body] * item.X_BP).matrix();
+    copy_to(X, *item.pose);
+    if (item.shadow != nullptr) {
+      copy_to(to_ground_ * X, *item.shadow_pose);
+    }
+    if (spring > 0.0 && body < shot.spring.size()) {
+      const double share = std::clamp(shot.spring[body] / spring, 0.0, 1.0);
+      const Color color = (1.0 - share) * item.color + share * spring_colors().back();
+      item.actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    }
+  }
+}
+
+void RobotActors::become_ghost(const Color& color) {
+  for (Item& item : items_) {
+    item.actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    vtkMapper* mapper = item.actor->GetMapper();
+    vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+    mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(kBehind, kBehind);
+  }
+}
+
+void RobotActors::show(bool visible) {
+  for (Item& item : items_) {
+    item.actor->SetVisibility(visible ? 1 : 0);
+  }
+}
+
+void RobotActors::add_shadow(double height, const Color& color, vtkRenderer* renderer) {
+  to_ground_ = projection(height, {-0.30, 0.38, -1.0});
+  for (Item& item : items_) {
+    item.shadow = vtkSmartPointer<vtkActor>::New();
+    item.shadow->SetMapper(item.actor->GetMapper());
+    item.shadow->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    item.shadow->GetProperty()->LightingOff();
+    item.shadow_pose = vtkSmartPointer<vtkMatrix4x4>::New();
+    item.shadow->SetUserMatrix(item.shadow_pose);
+    renderer->AddActor(item.shadow);
+  }
+}
+
+}  // namespace plumbline::render
