@@ -145,6 +145,12 @@ def torso():
     prism(mesh, box, -0.034, 0.034)
     for x, z, radius in ((-0.045, 0.10, 0.055), (0.06, 0.13, 0.045)):
         disc(mesh, radius, -0.034, 0.034, x, z)
+    for side in (-1.0, 1.0):
+        for x, z, radius in ((0.0, 0.325, 0.062), (-0.055, 0.065, 0.030), (0.055, 0.065, 0.030)):
+            near, far = sorted((side * 0.048, side * 0.055))
+            disc(mesh, radius, near, far, x, z)
+            near, far = sorted((side * 0.055, side * 0.058))
+            disc(mesh, 0.3 * radius, near, far, x, z)
     turned(mesh, [(0.44, 0.020), (0.56, 0.018), (0.57, 0.012)], "z")
     turned(mesh, [(-0.068, 0.030), (-0.062, 0.036), (0.062, 0.036), (0.068, 0.030)], "y")
     return mesh

@@ -11,7 +11,7 @@ namespace {
 constexpr int kLooks = 200;          // moments at which scales are taken
 constexpr double kArrow = 0.5;       // m, of the longest arrows
 constexpr double kMostOften = 0.95;  // share of the contact that is below them
-constexpr double kSector = 0.45;     // rad, of the largest stretch
+constexpr double kSector = 0.9;      // rad, of the largest stretch
 constexpr double kBar = 0.1;         // m, the same where a joint slides
 constexpr double kLeastForce = 1.0;  // N
 
@@ -88,7 +88,8 @@ Film::Film(const Figure& figure, const model::Plant& plant, const Snapshots& mod
       model_(model),
       measured_(measured),
       director_(figure, plant.model().skeleton, model, options.camera,
-                static_cast<double>(options.width) / options.height, options.from, options.to) {
+                static_cast<double>(options.width) / options.height, options.at.value_or(options.from),
+                options.at.value_or(options.to)) {
   const std::vector<Snapshot> shots = looks(model, options.from, options.to);
   scales_ = scales_of(model, shots, options.exaggeration);
   fixed_.title = options.title;

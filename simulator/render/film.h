@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,14 @@ struct FilmOptions {
   Camera camera = Camera::side;
   int width = 1280, height = 720;
   double from = 0.0, to = 0.0;  ///< what is to be seen, s
+  std::optional<double> at{};   ///< of this moment alone: then the camera need not hold the rest
   double exaggeration = 0.0;    ///< of cable stretch; 0: chosen so that the largest can be seen
 };
 
 /// The force that one metre of arrow stands for, N: 1, 2 or 5 times a power of ten, such that the longest
 /// arrows (but for the rare peaks of impacts) are about half a metre.
 double arrow_scale(const std::vector<Snapshot>& shots);
-/// 1, 2, 5, 10, ... times, such that the largest stretch is drawn as about 25 degrees (or 0.1 m).
+/// 1, 2, 5, 10, ... times, such that the largest stretch is drawn as at most 50 degrees (or 0.1 m).
 double stretch_scale(const std::vector<Snapshot>& shots);
 
 /// The stage under a motion: the terrain of the plant when the model has feet or stands above z = 0, none

@@ -99,6 +99,7 @@ Mesh load(const model::MeshShape& shape) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TEXCOORDS | aiComponent_COLORS |
                                   aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_MATERIALS);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(
       shape.file, static_cast<unsigned>(aiProcess_Triangulate | aiProcess_SortByPType |
                                         aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices));

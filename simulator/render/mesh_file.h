@@ -14,7 +14,8 @@ struct MeshFile {
   std::string problem;  ///< "FILE: found ..., expected ..."; empty when the mesh is good
 };
 
-/// All triangles of the file in one frame, points at the same place joined, times shape.scale. Problems, one
+/// All triangles of the file in one frame, its axes as they are (an up direction that it states is not turned
+/// to another), points at the same place joined, times shape.scale. Problems, one
 /// line each: no such file, nothing that assimp can read, no triangle with an area, a coordinate that is no
 /// number, more triangles than can be drawn (2 million), a size that speaks of a wrong unit (above 20 m or
 /// below 0.1 mm).

@@ -9,7 +9,9 @@
 namespace plumbline::render {
 namespace {
 
-constexpr double kComputed = 1e-6;  // deviation of a position that was simulated, rad or m
+// Deviation of a position that was simulated, rad or m: about that of encoders, so that neither hides the
+// other.
+constexpr double kComputed = 1e-4;
 
 struct Channels {
   std::vector<model::Observation> observations;

@@ -18,7 +18,9 @@ namespace plumbline::render {
 namespace {
 
 constexpr double kGhost = 0.45;  // opacity of what is measured
-constexpr int kSamples = 8;      // for smooth edges
+constexpr int kSamples = 4;      // for smooth edges
+constexpr double kNear = 0.25;   // what is seen begins and ends here, in distances to the target
+constexpr double kFar = 8.0;
 
 void look(vtkRenderer& renderer, const View& view) {
   vtkCamera* camera = renderer.GetActiveCamera();
@@ -26,7 +28,9 @@ void look(vtkRenderer& renderer, const View& view) {
   camera->SetFocalPoint(view.target.data());
   camera->SetViewUp(0.0, 0.0, 1.0);
   camera->SetViewAngle(view.angle * 180.0 / M_PI);
-  renderer.ResetCameraClippingRange();
+  // Not further forward than needed: depth must tell a line on a surface from one a millimetre behind it.
+  const double distance = (view.eye - view.target).norm();
+  camera->SetClippingRange(kNear * distance, kFar * distance);
 }
 
 }  // namespace
@@ -127,7 +131,7 @@ const std::vector<Color>& spring_colors() {
                                          Color(0.87, 0.76, 0.33), Color(0.98, 0.82, 0.15)};
   return colors;
 }
-Color ghost_color() { return {0.34, 0.71, 0.91}; }
+Color ghost_color() { return {0.00, 0.62, 0.45}; }
 Color force_color() { return {0.84, 0.30, 0.00}; }
 Color stretch_color() { return {0.80, 0.40, 0.62}; }
 

@@ -9,7 +9,7 @@
 namespace plumbline::render {
 namespace {
 
-constexpr double kRod = 0.011;      // m
+constexpr double kRod = 0.013;      // m
 constexpr double kApart = 0.42;     // m between figures that stand side by side
 constexpr double kEnough = 0.2;     // m on the way between two figures that need no help
 constexpr double kLightest = 0.62;  // how far the first figure fades into white
@@ -39,6 +39,29 @@ std::vector<int> base_and_carriers(const model::Skeleton& skeleton) {
     chain.push_back(body);
   }
   return chain;
+}
+
+/// The heaviest body and what leads from it to further joints or to feet: no carriers, no levers that end in
+/// the air. All but the carriers where nothing would be left.
+std::vector<Stick> limbs(const model::Model& model, const std::vector<int>& chain) {
+  const auto carries = [&](int body) {
+    const auto& joints = model.skeleton.joints;
+    const auto& feet = model.feet;
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const model::Joint& j) { return j.parent == body; }) ||
+           std::any_of(feet.begin(), feet.end(), [&](const model::Foot& f) { return f.body == body; });
+  };
+  std::vector<Stick> all;
+  std::vector<Stick> leading;
+  for (const Stick& stick : sticks_of(model)) {
+    if (std::find(chain.begin() + 1, chain.end(), stick.body) == chain.end()) {
+      all.push_back(stick);
+      if (stick.body == chain.front() || carries(stick.body)) {
+        leading.push_back(stick);
+      }
+    }
+  }
+  return leading.size() > 1 ? leading : all;
 }
 
 double heading(const Eigen::Isometry3d& X) {
@@ -84,12 +107,7 @@ void add(const std::vector<Stick>& sticks, const Figure& colors, int first_body,
 Image strip(const Figure& figure, const model::Plant& plant, const Snapshots& motion, int count,
             const FilmOptions& options) {
   const std::vector<int> chain = base_and_carriers(plant.model().skeleton);
-  std::vector<Stick> sticks = sticks_of(plant.model());
-  sticks.erase(std::remove_if(sticks.begin(), sticks.end(),
-                              [&](const Stick& stick) {
-                                return std::find(chain.begin() + 1, chain.end(), stick.body) != chain.end();
-                              }),
-               sticks.end());
+  const std::vector<Stick> sticks = limbs(plant.model(), chain);
   std::vector<Snapshot> shots;
   for (int k = 0; k < count; ++k) {
     shots.push_back(motion.at(options.from + (options.to - options.from) * k / std::max(1, count - 1)));

@@ -16,6 +16,7 @@ constexpr double kMargin = 1.10;
 constexpr double kSmooth = 0.25;  // s to either side, over which a followed robot's place is averaged
 constexpr int kLooks = 60;        // moments of a motion that are framed
 constexpr double kAngle = 0.35;
+constexpr int kRounds = 4;  // of centring: each brings the middle several times nearer
 
 /// Axes of the eye at a direction from the target.
 struct EyeFrame {
@@ -33,6 +34,17 @@ double needed_distance(const Eigen::Vector3d& p, const EyeFrame& eye, double wid
   const double aside = std::abs(p.dot(eye.right)) / (across * width_to_height);
   const double above = std::abs(p.dot(eye.up)) / across;
   return kMargin * std::max(aside, above) + p.dot(eye.back);
+}
+
+/// How far the target is from the middle of what an eye at this distance sees of the points.
+Eigen::Vector3d off_center(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& target,
+                           const EyeFrame& eye, double distance) {
+  Eigen::AlignedBox2d seen;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = point - target;
+    seen.extend(Eigen::Vector2d(p.dot(eye.right), p.dot(eye.up)) / (distance - p.dot(eye.back)));
+  }
+  return distance * (seen.center().x() * eye.right + seen.center().y() * eye.up);
 }
 
 Eigen::Vector3d level(const Eigen::Vector3d& v) { return {v.x(), v.y(), 0.0}; }
@@ -107,8 +119,12 @@ View Director::around(const std::vector<Eigen::Vector3d>& points, const Eigen::V
   view.target = box.center();
   const EyeFrame eye = frame_at(toward_eye);
   double distance = 0.1;
-  for (const Eigen::Vector3d& point : points) {
-    distance = std::max(distance, needed_distance(point - view.target, eye, width_to_height));
+  for (int round = 0; round < kRounds; ++round) {
+    distance = 0.1;
+    for (const Eigen::Vector3d& point : points) {
+      distance = std::max(distance, needed_distance(point - view.target, eye, width_to_height));
+    }
+    view.target += off_center(points, view.target, eye, distance);
   }
   view.eye = view.target + distance * eye.back;
   return view;

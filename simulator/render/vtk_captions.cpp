@@ -15,6 +15,7 @@ namespace plumbline::render {
 namespace {
 
 constexpr double kLetter = 1.0 / 34.0;  // of the picture's height
+constexpr double kLeast = 9.0;          // pixels: smaller ones cannot be read
 
 }  // namespace
 
@@ -28,7 +29,7 @@ void CaptionActors::add_text(const std::string& text, int x, int y, double size,
   actor->SetDisplayPosition(x, y);
   vtkTextProperty* property = actor->GetTextProperty();
   property->SetFontFamilyToArial();
-  property->SetFontSize(std::max(7, static_cast<int>(std::lround(size))));
+  property->SetFontSize(static_cast<int>(std::lround(size)));
   property->SetColor(0.16, 0.19, 0.23);
   property->SetBold(bold ? 1 : 0);
   from_top ? property->SetVerticalJustificationToTop() : property->SetVerticalJustificationToCentered();
@@ -67,7 +68,7 @@ void CaptionActors::write(const Captions& captions) {
     renderer_->RemoveActor2D(actor);
   }
   actors_.clear();
-  const double letter = kLetter * height_;
+  const double letter = std::max(kLeast, kLetter * height_);
   const int margin = static_cast<int>(1.1 * letter);
   double y = height_ - 0.9 * letter;
   if (!captions.title.empty()) {

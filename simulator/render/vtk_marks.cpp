@@ -24,6 +24,7 @@ constexpr double kHeadRadius = 0.026;
 constexpr double kDisc = 0.045;      // m, radius
 constexpr double kLeastForce = 1.0;  // N: below, nothing is drawn
 constexpr int kPieces = 32;          // of a sector
+constexpr double kSeen = 0.02;       // rad: a narrower sector is a line already
 constexpr double kBarWidth = 0.03;   // m
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Color& color, vtkRenderer* renderer) {
@@ -142,7 +143,9 @@ void StretchSector::place(const Stretch& stretch, double exaggeration) {
         cells->InsertNextCell({center, id - 1, id});
       }
     }
-    lines->InsertNextCell({center, center + 1 + kPieces});
+    if (std::abs(sweep) > kSeen) {
+      lines->InsertNextCell({center, center + 1 + kPieces});
+    }
   } else {
     const std::array<Eigen::Vector3d, 4> corners{
         Eigen::Vector3d(kBarWidth, 0.0, 0.0), Eigen::Vector3d(kBarWidth, 0.0, -amount),

@@ -1,5 +1,8 @@
 #include "simulator/render/vtk_robot.h"
 
+#include <vtkCleanPolyData.h>
+#include <vtkFeatureEdges.h>
+#include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
@@ -10,7 +13,9 @@
 namespace plumbline::render {
 namespace {
 
-constexpr double kBehind = 4.0;  // units of depth by which a ghost gives way
+constexpr double kSharp = 40.0;      // degrees
+constexpr double kSamePoint = 1e-6;  // m
+constexpr double kBehind = 4.0;      // units of depth by which a ghost gives way
 
 void make_matter(vtkProperty& property, const Color& color) {
   property.SetColor(color.x(), color.y(), color.z());
@@ -19,6 +24,30 @@ void make_matter(vtkProperty& property, const Color& color) {
   property.SetDiffuse(0.78);
   property.SetSpecular(0.22);
   property.SetSpecularPower(28.0);
+}
+
+/// The sharp edges as thin lines of a darker shade: an illustration, not a photograph.
+vtkSmartPointer<vtkActor> edges_of(vtkPolyData* surface, const Color& color) {
+  vtkNew<vtkCleanPolyData> joined;  // surfaces for shading are cut along their edges
+  joined->SetInputData(surface);
+  joined->SetAbsoluteTolerance(kSamePoint);
+  joined->ToleranceIsAbsoluteOn();
+  vtkNew<vtkFeatureEdges> sharp;
+  sharp->SetInputConnection(joined->GetOutputPort());
+  sharp->SetFeatureAngle(kSharp);
+  sharp->BoundaryEdgesOff();
+  sharp->NonManifoldEdgesOff();
+  sharp->ManifoldEdgesOff();
+  sharp->ColoringOff();
+  sharp->Update();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(sharp->GetOutput());
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  const Color dark = 0.62 * color;
+  actor->GetProperty()->SetColor(dark.x(), dark.y(), dark.z());
+  actor->GetProperty()->LightingOff();
+  return actor;
 }
 
 /// Where parallel light that falls along `light` carries a point onto z = height.
@@ -37,16 +66,20 @@ Eigen::Matrix4d projection(double height, const Eigen::Vector3d& light) {
 
 RobotActors::RobotActors(const Figure& figure, vtkRenderer* renderer) {
   for (const Part& part : figure.parts) {
-    Item item{part.body, part.X_BP, part.color, {}, {}, {}, {}};
+    Item item{part.body, part.X_BP, part.color, {}, {}, {}, {}, {}};
+    const vtkSmartPointer<vtkPolyData> surface = surface_of(part.solid);
     const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
-    mapper->SetInputData(surface_of(part.solid));
+    mapper->SetInputData(surface);
     mapper->ScalarVisibilityOff();
     item.actor = vtkSmartPointer<vtkActor>::New();
     item.actor->SetMapper(mapper);
     make_matter(*item.actor->GetProperty(), part.color);
     item.pose = vtkSmartPointer<vtkMatrix4x4>::New();
     item.actor->SetUserMatrix(item.pose);
+    item.edges = edges_of(surface, part.color);
+    item.edges->SetUserMatrix(item.pose);
     renderer->AddActor(item.actor);
+    renderer->AddActor(item.edges);
     items_.push_back(item);
   }
 }
@@ -70,6 +103,7 @@ void RobotActors::place(const Snapshot& shot, double spring) {
 void RobotActors::become_ghost(const Color& color) {
   for (Item& item : items_) {
     item.actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+    item.edges->VisibilityOff();
     vtkMapper* mapper = item.actor->GetMapper();
     vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
     mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(kBehind, kBehind);

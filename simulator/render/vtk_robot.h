@@ -29,7 +29,7 @@ class RobotActors {
     int body;
     Eigen::Isometry3d X_BP;
     Color color;
-    vtkSmartPointer<vtkActor> actor, shadow;
+    vtkSmartPointer<vtkActor> actor, edges, shadow;
     vtkSmartPointer<vtkMatrix4x4> pose, shadow_pose;
   };
   std::vector<Item> items_;

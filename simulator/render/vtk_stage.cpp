@@ -12,7 +12,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace plumbline::render {
@@ -21,24 +20,21 @@ namespace {
 constexpr double kFine = 0.1;       // m between lines
 constexpr double kCoarse = 0.5;     // m between stronger lines
 constexpr double kLayer = 0.0012;   // m between ground, grid and shadow
-constexpr double kStepWidth = 1.6;  // m, of a platform
+constexpr double kStepWidth = 0.8;  // m, of a platform
 
 const Color kGround(0.905, 0.915, 0.925);
 const Color kLine(0.62, 0.66, 0.70);
 
-/// Points with colours and opacity, and cells over them.
+/// Points with colours, and cells over them. Nothing is translucent: that would cost as much as all the rest.
 struct Sheet {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkUnsignedCharArray> colors;
-  Sheet() { colors->SetNumberOfComponents(4); }
+  Sheet() { colors->SetNumberOfComponents(3); }
 
-  vtkIdType add(double x, double y, double z, const Color& color, double opacity) {
-    const auto byte = [](double v) {
-      return static_cast<unsigned char>(std::lround(255.0 * std::clamp(v, 0.0, 1.0)));
-    };
-    const std::array<unsigned char, 4> rgba{byte(color.x()), byte(color.y()), byte(color.z()), byte(opacity)};
-    colors->InsertNextTypedTuple(rgba.data());
+  vtkIdType add(double x, double y, double z, const Color& color) {
+    const Eigen::Matrix<unsigned char, 3, 1> rgb = (255.0 * color).array().round().cast<unsigned char>();
+    colors->InsertNextTypedTuple(rgb.data());
     return points->InsertNextPoint(x, y, z);
   }
   vtkSmartPointer<vtkActor> actor(bool lines) const {
@@ -61,18 +57,22 @@ double presence(double distance, double reach) {
   return 1.0 - s * s * (3.0 - 2.0 * s);
 }
 
+Color ground_color(double distance, double reach) {
+  const double here = presence(distance, reach);
+  return here * kGround + (1.0 - here) * background_color();
+}
+
 void add_floor(const Stage& stage, double reach, vtkRenderer& renderer) {
   constexpr int kRings = 24;
   constexpr int kSpokes = 72;
   Sheet sheet;
   for (int ring = 0; ring <= kRings; ++ring) {
     const double r = reach * ring / kRings;
-    const double here = presence(r, reach);
-    const Color color = here * kGround + (1.0 - here) * background_color();
+    const Color color = ground_color(r, reach);
     for (int spoke = 0; spoke < kSpokes; ++spoke) {
       const double angle = 2.0 * M_PI * spoke / kSpokes;
       sheet.add(stage.center.x() + r * std::cos(angle), stage.center.y() + r * std::sin(angle),
-                stage.height - 2.0 * kLayer, color, 1.0);
+                stage.height - 2.0 * kLayer, color);
     }
   }
   for (int ring = 0; ring < kRings; ++ring) {
@@ -92,8 +92,10 @@ void add_line(Sheet& sheet, const Stage& stage, double reach, bool along_x, doub
   const double middle = along_x ? stage.center.x() : stage.center.y();
   for (int k = 0; k <= pieces; ++k) {
     const double s = middle + reach * (2.0 * k / pieces - 1.0);
-    const double opacity = strength * presence(std::hypot(s - middle, at - across), reach);
-    const vtkIdType id = sheet.add(along_x ? s : at, along_x ? at : s, stage.height - kLayer, kLine, opacity);
+    const double distance = std::hypot(s - middle, at - across);
+    const double here = strength * presence(distance, reach);
+    const Color color = here * kLine + (1.0 - here) * ground_color(distance, reach);
+    const vtkIdType id = sheet.add(along_x ? s : at, along_x ? at : s, stage.height - kLayer, color);
     if (k > 0) {
       sheet.cells->InsertNextCell({id - 1, id});
     }
@@ -125,6 +127,8 @@ void add_step(const Stage& stage, const Step& step, vtkRenderer& renderer) {
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(0.80, 0.83, 0.86);
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeColor(kLine.x(), kLine.y(), kLine.z());
   actor->GetProperty()->SetAmbient(0.45);
   actor->GetProperty()->SetDiffuse(0.6);
   if (step.height < stage.height) {  // sunken ground shows as its outline

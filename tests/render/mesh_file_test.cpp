@@ -97,7 +97,7 @@ TEST_F(MeshFileTest, EveryProblemIsOneLineWithTheFile) {
   EXPECT_THAT(problem("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), HasSubstr("no triangle with an area"));
   EXPECT_THAT(problem("v 0 0 0\nv 300 0 0\nv 0 200 0\nf 1 2 3\n"),
               HasSubstr("a size of 361 m across, expected metres (a <scale> of 0.001"));
-  EXPECT_THAT(problem("v 0 0 0\nv 3e-6 0 0\nv 0 2e-6 0\nf 1 2 3\n"), HasSubstr("m across, expected metres"));
+  EXPECT_THAT(problem("v 0 0 0\nv 6e-5 0 0\nv 0 6e-5 0\nf 1 2 3\n"), HasSubstr("m across, expected metres"));
   EXPECT_THAT(problem("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("expected"));
   for (const std::string& text : {problem("rubbish"), problem("")}) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;

@@ -15,6 +15,10 @@ namespace {
 
 using testing::HasSubstr;
 
+// Stretches of some rad are pulled towards zero with a weight of 1e-6 of the sharpest encoder's, which is a
+// hundred times a motor's: squared, 1e-8 and some.
+constexpr double kPull = 1e-5;
+
 class MotionTest : public testing::Test {
  protected:
   MotionTest()
@@ -57,7 +61,7 @@ class MotionTest : public testing::Test {
 
 TEST_F(MotionTest, PositionsForcesAndPhasesComeBack) {
   const Motion motion = motion_from(trace(), plant_);
-  EXPECT_LT((motion.positions - x_.topRows(plant_.positions())).norm(), 1e-9);
+  EXPECT_LT((motion.positions - x_.topRows(plant_.positions())).norm(), kPull);
   ASSERT_EQ(motion.foot_forces.size(), 2U);
   EXPECT_EQ(motion.foot_forces[0](2, 2), 3.0);
   EXPECT_EQ(motion.foot_forces[1](2, 2), 4.0);
@@ -72,7 +76,7 @@ TEST_F(MotionTest, CoordinatesByNameCountToo) {
     torso[k] = plant_.position_of("torso", x_.col(k).data());
   }
   table.columns.push_back({"x_torso", "rad", torso});
-  EXPECT_LT((motion_from(table, plant_).positions - x_.topRows(plant_.positions())).norm(), 1e-9);
+  EXPECT_LT((motion_from(table, plant_).positions - x_.topRows(plant_.positions())).norm(), kPull);
 }
 
 TEST_F(MotionTest, RefusesWhatLeavesAPositionOpenOrGoesBackInTime) {

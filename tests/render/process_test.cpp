@@ -196,9 +196,8 @@ TEST(Video, WithoutFfmpegThereAreNumberedPictures) {
 
 TEST(Video, LeavesNothingBehindWhenItIsNotFinished) {
   const test::TemporaryFolder folder;
-  for (const char* path : {"/nowhere", std::getenv("PATH")}) {
-    const std::string kept = path;
-    const Setting with("PATH", kept.c_str());
+  for (const std::string& path : {std::string("/nowhere"), std::string(std::getenv("PATH"))}) {
+    const Setting with("PATH", path.c_str());
     Video video(folder.path("a.mp4"), 64, 64, 30.0);
     video.add(gray(1));
   }

@@ -185,9 +185,11 @@ render::FilmOptions film_options(const Options& options, const Scene& scene, con
   inside("--from", film.from);
   inside("--to", film.to);
   if (!options.at.empty()) {
-    inside("--at", time_from("--at", options.at));
+    const double at = time_from("--at", options.at);
+    inside("--at", at);
+    film.at = at;
   }
-  if (!(film.to > film.from) && options.at.empty()) {
+  if (!(film.to > film.from)) {
     throw InputError({"", 0, "--to"}, fmt::format("{:g} s", film.to), "a time after --from");
   }
   return film;
@@ -238,8 +240,7 @@ Result paint(const Options& options, const Scene& scene, const render::Figure& f
   if (is_video(options)) {
     return film_video(film, options, film_of);
   }
-  const double at = options.at.empty() ? film_of.from : time_from("--at", options.at);
-  render::write_png(film.frame(at), options.out);
+  render::write_png(film.frame(film_of.at.value_or(film_of.from)), options.out);
   return {options.out, 1};
 }
 
