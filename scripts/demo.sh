@@ -37,5 +37,14 @@ step "4. Fit its values on the train trials" "fit TRIALS --model added.yaml --fr
 step "5. See the error fall, on a motion the fit never saw" "ladder TRIALS --model fitted.yaml"
 "$program" ladder "${trials[@]}" --model "$work/fitted.yaml"
 
+step "6. Watch it" "render mimo --model fitted.yaml --measured --whole -o mimo.png (and .mp4)"
+pictures=$root/build/demo
+mkdir -p -- "$pictures"
+draw() { "$program" render "$data/mimo" --model "$work/fitted.yaml" --measured --whole "$@"; }
+draw --at 1.5s -o "$pictures/mimo.png" || echo "no picture: see the line above"
+if command -v ffmpeg >/dev/null; then
+  draw --from 1s --to 2s --fps 30 --size 640x360 -o "$pictures/mimo.mp4" || echo "no video: see the line above"
+fi
+
 printf '\nIn plain words: the model lacked %s at %s. What was hidden in the data stands in\n%s.\n' \
   "$effect" "$at" "validation/trials/leg_bench_demo/truth.json"

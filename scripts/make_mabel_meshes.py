@@ -209,8 +209,8 @@ def main():
         ("torso", torso(), "torso: plates, drives, mast; hip axis at the origin"),
         ("thigh", thigh(), "thigh: 0.5 m from hip to knee"),
         ("shin", shin(), "shin: 0.5 m from knee to toe"),
-        ("cspring", lever(0.034, 0.15, 0.012), "C_Spring: a lever that hangs from its pivot"),
-        ("cshin", lever(0.030, 0.12, 0.012), "C_Shin: a lever that hangs from its pivot"),
+        ("cspring", lever(0.040, 0.22, 0.018), "C_Spring: a lever that hangs from its pivot"),
+        ("cshin", lever(0.036, 0.17, 0.018), "C_Shin: a lever that hangs from its pivot"),
         ("boom", boom(), "boom: from the tower's pivot to the hip, with a counterweight"),
         ("tower", tower(), "tower: under the boom's pivot"),
     ):

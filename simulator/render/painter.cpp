@@ -17,9 +17,10 @@
 namespace plumbline::render {
 namespace {
 
-constexpr double kGhost = 0.45;  // opacity of what is measured
-constexpr int kSamples = 4;      // for smooth edges
-constexpr double kNear = 0.25;   // what is seen begins and ends here, in distances to the target
+constexpr double kGhost = 0.45;    // opacity of what is measured
+constexpr int kSamples = 4;        // for smooth edges
+constexpr double kBehind = 0.004;  // m
+constexpr double kNear = 0.25;     // what is seen begins and ends here, in distances to the target
 constexpr double kFar = 8.0;
 
 void look(vtkRenderer& renderer, const View& view) {
@@ -31,6 +32,15 @@ void look(vtkRenderer& renderer, const View& view) {
   // Not further forward than needed: depth must tell a line on a surface from one a millimetre behind it.
   const double distance = (view.eye - view.target).norm();
   camera->SetClippingRange(kNear * distance, kFar * distance);
+}
+
+/// A hair further from the eye: what coincides with the model is hidden by it.
+Snapshot behind(Snapshot shot, const View& view) {
+  const Eigen::Vector3d away = kBehind * (view.target - view.eye).normalized();
+  for (Eigen::Isometry3d& pose : shot.poses) {
+    pose.pretranslate(away);
+  }
+  return shot;
 }
 
 }  // namespace
@@ -121,7 +131,7 @@ Image Painter::paint(const Snapshot& shot, const Snapshot* ghost, const View& vi
   if (ghost == nullptr) {
     return scene.picture(false);
   }
-  scene.ghost.place(*ghost, 0.0);
+  scene.ghost.place(behind(*ghost, view), 0.0);
   const Image with = scene.picture(true);
   return blend(with, scene.picture(false), kGhost);
 }

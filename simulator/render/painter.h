@@ -37,7 +37,7 @@ struct KeyLine {
 struct Captions {
   std::string title;
   std::vector<std::string> lines;  ///< under the title
-  std::vector<KeyLine> key;        ///< at the bottom
+  std::vector<KeyLine> key;        ///< in the other corner
 };
 
 /// How quantities become lengths and colours.

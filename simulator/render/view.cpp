@@ -12,9 +12,11 @@ namespace {
 
 constexpr double kSideHeight = 0.10;  // rise of the line of sight over its length
 constexpr double kBoomHeight = 0.42;
-constexpr double kMargin = 1.10;
-constexpr double kSmooth = 0.25;  // s to either side, over which a followed robot's place is averaged
-constexpr int kLooks = 60;        // moments of a motion that are framed
+constexpr double kAside = 1.08;  // room beside, and above and below, as a factor
+constexpr double kAbove = 1.20;
+constexpr double kForWords = 0.09;  // share of half the height by which things stand lower: words are above
+constexpr double kSmooth = 0.25;    // s to either side, over which a followed robot's place is averaged
+constexpr int kLooks = 60;          // moments of a motion that are framed
 constexpr double kAngle = 0.35;
 constexpr int kRounds = 4;  // of centring: each brings the middle several times nearer
 
@@ -33,7 +35,7 @@ double needed_distance(const Eigen::Vector3d& p, const EyeFrame& eye, double wid
   const double across = std::tan(0.5 * kAngle);
   const double aside = std::abs(p.dot(eye.right)) / (across * width_to_height);
   const double above = std::abs(p.dot(eye.up)) / across;
-  return kMargin * std::max(aside, above) + p.dot(eye.back);
+  return std::max(kAside * aside, kAbove * above) + p.dot(eye.back);
 }
 
 /// How far the target is from the middle of what an eye at this distance sees of the points.
@@ -126,6 +128,7 @@ View Director::around(const std::vector<Eigen::Vector3d>& points, const Eigen::V
     }
     view.target += off_center(points, view.target, eye, distance);
   }
+  view.target += kForWords * distance * std::tan(0.5 * kAngle) * eye.up;
   view.eye = view.target + distance * eye.back;
   return view;
 }
@@ -191,6 +194,7 @@ View Director::view(double time) const {
   View view;
   view.angle = kAngle;
   view.target = robot_place(time);
+  view.target.z() += kForWords * distance_ * std::tan(0.5 * kAngle);
   view.eye = view.target + distance_ * toward_eye(time).normalized();
   return view;
 }

@@ -15,6 +15,7 @@ namespace plumbline::render {
 namespace {
 
 constexpr double kLetter = 1.0 / 34.0;  // of the picture's height
+constexpr double kLetterWidth = 0.54;   // of a letter's height, mean
 constexpr double kLeast = 9.0;          // pixels: smaller ones cannot be read
 
 }  // namespace
@@ -79,14 +80,24 @@ void CaptionActors::write(const Captions& captions) {
     add_text(line, margin, static_cast<int>(y), letter, false, true);
     y -= 1.4 * letter;
   }
-  double bottom = 0.9 * letter;
-  const double small = 0.82 * letter;
-  const int swatch = static_cast<int>(2.6 * small);
-  for (auto line = captions.key.rbegin(); line != captions.key.rend(); ++line) {
-    add_swatch(line->colors, margin, static_cast<int>(bottom), swatch, static_cast<int>(0.8 * small));
-    const int x = line->colors.empty() ? margin : margin + swatch + static_cast<int>(0.7 * small);
-    add_text(line->text, x, static_cast<int>(bottom + 0.4 * small), small, false, false);
-    bottom += 1.45 * small;
+  write_key(captions.key, 0.82 * letter, margin);
+}
+
+/// In the upper right corner, its lines one below the other.
+void CaptionActors::write_key(const std::vector<KeyLine>& key, double letter, int margin) {
+  std::size_t longest = 0;
+  for (const KeyLine& line : key) {
+    longest = std::max(longest, line.text.size());
+  }
+  const int swatch = static_cast<int>(2.6 * letter);
+  const int gap = static_cast<int>(0.7 * letter);
+  const int left =
+      width_ - margin - swatch - gap - static_cast<int>(kLetterWidth * letter * static_cast<double>(longest));
+  double y = height_ - 1.9 * letter;
+  for (const KeyLine& line : key) {
+    add_swatch(line.colors, left, static_cast<int>(y), swatch, static_cast<int>(0.8 * letter));
+    add_text(line.text, left + swatch + gap, static_cast<int>(y + 0.4 * letter), letter, false, false);
+    y -= 1.45 * letter;
   }
 }
 

@@ -20,13 +20,12 @@ class CaptionActors {
 
  private:
   void add_text(const std::string& text, int x, int y, double size, bool bold, bool from_top);
+  void write_key(const std::vector<KeyLine>& key, double letter, int margin);
   void add_swatch(const std::vector<Color>& colors, int x, int y, int width, int height);
 
   vtkRenderer* renderer_;
   int width_, height_;
   std::vector<vtkSmartPointer<vtkActor2D>> actors_;
-  Captions shown_;
-  bool any_ = false;
 };
 
 }  // namespace plumbline::render

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kSharp = 40.0;      // degrees
 constexpr double kSamePoint = 1e-6;  // m
-constexpr double kBehind = 4.0;      // units of depth by which a ghost gives way
 
 void make_matter(vtkProperty& property, const Color& color) {
   property.SetColor(color.x(), color.y(), color.z());
@@ -104,9 +103,6 @@ void RobotActors::become_ghost(const Color& color) {
   for (Item& item : items_) {
     item.actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
     item.edges->VisibilityOff();
-    vtkMapper* mapper = item.actor->GetMapper();
-    vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
-    mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(kBehind, kBehind);
   }
 }
 

@@ -18,7 +18,7 @@ class RobotActors {
 
   /// Moves the parts; of springs the colour goes from the part's own to spring_colors().back() at `spring`.
   void place(const Snapshot& shot, double spring);
-  /// All parts in one colour, a hair behind where they are, so that what coincides with them hides them.
+  /// All parts in one colour, without edges.
   void become_ghost(const Color& color);
   void show(bool visible);
   /// Where the robot keeps light from level ground at this height. Drawn as one flat colour.
