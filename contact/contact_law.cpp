@@ -12,4 +12,8 @@ double TangentialLaw::stored_energy(double /*normal*/, const double* /*state*/, 
   return 0.0;
 }
 
+void NormalLaw::apply(const GroundChange& /*change*/, double* /*p*/) const {}
+
+void TangentialLaw::apply(const GroundChange& /*change*/, double* /*p*/) const {}
+
 }  // namespace plumbline::contact

@@ -9,6 +9,15 @@
 
 namespace plumbline::contact {
 
+/// How the ground differs from what a foot's laws say: factors on their elastic, damping and friction
+/// coefficients, and what its surface is higher by, m.
+struct GroundChange {
+  double stiffness = 1.0;
+  double damping = 1.0;
+  double friction = 1.0;
+  double height = 0.0;
+};
+
 /// Normal force of the ground on a point foot.
 /// depth > 0 inside the ground, m; rate = d(depth)/dt, m/s.
 /// Power balance, which the tests check: force * rate = d(stored_energy)/dt + dissipated_power.
@@ -22,6 +31,8 @@ class NormalLaw : public effects::Law {
   virtual double dissipated_power(double depth, double rate, const double* p) const = 0;
   /// Switching functions: the force is smooth between their zeros. Appended to `g`; always the same number.
   virtual void switches(double depth, double rate, const double* p, std::vector<double>& g) const;
+  /// Makes the law's values those of a changed ground (its height apart). Default: it does not feel it.
+  virtual void apply(const GroundChange& change, double* p) const;
 };
 
 /// Force of the ground on a point foot along the ground's plane.
@@ -42,6 +53,8 @@ class TangentialLaw : public effects::Law {
   /// W, at constant normal force.
   virtual double dissipated_power(const Eigen::Vector2d& slip, double normal, const double* state,
                                   const double* p) const = 0;
+  /// Makes the law's values those of a changed ground. Default: it does not feel it.
+  virtual void apply(const GroundChange& change, double* p) const;
 };
 
 }  // namespace plumbline::contact

@@ -121,4 +121,11 @@ double GroundFriction::dissipated_power(const Vector2d& slip, double normal, con
   return normal * power;
 }
 
+// The bristles' deflection before they slide stays.
+void GroundFriction::apply(const GroundChange& change, double* p) const {
+  p[kBristleStiffness] *= change.friction;
+  p[kFriction] *= change.friction;
+  p[kViscous] *= change.friction;
+}
+
 }  // namespace plumbline::contact

@@ -59,6 +59,7 @@ class GroundFriction final : public TangentialLaw {
   double stored_energy(double normal, const double* state, const double* p) const override;
   double dissipated_power(const Eigen::Vector2d& slip, double normal, const double* state,
                           const double* p) const override;
+  void apply(const GroundChange& change, double* p) const override;
 };
 
 }  // namespace plumbline::contact

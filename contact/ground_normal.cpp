@@ -98,4 +98,10 @@ void GroundNormal::switches(double depth, double rate, const double* p, std::vec
   g.push_back(inside ? p[kStiffness] + damping_force(rate, p) : 1.0);
 }
 
+void GroundNormal::apply(const GroundChange& change, double* p) const {
+  p[kStiffness] *= change.stiffness;
+  p[kDamping] *= change.damping;
+  p[kRootDamping] *= change.damping;
+}
+
 }  // namespace plumbline::contact

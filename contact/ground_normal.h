@@ -43,6 +43,7 @@ class GroundNormal final : public NormalLaw {
   double stored_energy(double depth, const double* p) const override;
   double dissipated_power(double depth, double rate, const double* p) const override;
   void switches(double depth, double rate, const double* p, std::vector<double>& g) const override;
+  void apply(const GroundChange& change, double* p) const override;
 };
 
 }  // namespace plumbline::contact

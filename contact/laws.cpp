@@ -1,5 +1,6 @@
 #include "contact/laws.h"
 
+#include "contact/ground_change.h"
 #include "contact/ground_friction.h"
 #include "contact/ground_normal.h"
 
@@ -7,7 +8,12 @@ namespace plumbline::contact {
 
 // A new law of the ground is one line here (and one file pair).
 std::vector<std::shared_ptr<const effects::Law>> ground_laws() {
-  return {std::make_shared<const GroundNormal>(), std::make_shared<const GroundFriction>()};
+  return {std::make_shared<const GroundNormal>(),
+          std::make_shared<const GroundFriction>(),
+          ground_stiffness_error(),
+          ground_damping_error(),
+          ground_friction_error(),
+          ground_height_error()};
 }
 
 }  // namespace plumbline::contact

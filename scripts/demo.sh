@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # The tour on the shipped bench data: a leg whose log hides one effect that its model does not have.
-# Needs PLUMBLINE, the program; writes into a temporary folder that is removed at the end.
+# Needs PLUMBLINE, the program; writes into out/demo, where the models and the report stay.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
 program=${PLUMBLINE:?the path of the plumbline program}
 data=$root/validation/trials/leg_bench_demo
-work=$(mktemp -d)
-trap 'rm -rf -- "$work"' EXIT
+work=out/demo
 cd -- "$root"
+mkdir -p -- "$work"
 
 trials=("$data/siso_mLA" "$data/siso_mLS" "$data/mimo")
 model=robots/mabel/leg_bench.yaml
@@ -37,14 +37,16 @@ step "4. Fit its values on the train trials" "fit TRIALS --model added.yaml --fr
 step "5. See the error fall, on a motion the fit never saw" "ladder TRIALS --model fitted.yaml"
 "$program" ladder "${trials[@]}" --model "$work/fitted.yaml"
 
-step "6. Watch it" "render mimo --model fitted.yaml --measured --whole -o mimo.png (and .mp4)"
-pictures=$root/build/demo
-mkdir -p -- "$pictures"
+step "6. Look at it" "report TRIALS --model fitted.yaml --diagnosis diagnosis.json -o report.html"
+"$program" report "${trials[@]}" --model "$work/fitted.yaml" --diagnosis "$work/diagnosis.json" -o "$work/report.html"
+
+step "7. Watch it" "render mimo --model fitted.yaml --measured --whole -o mimo.png (and .mp4)"
 draw() { "$program" render "$data/mimo" --model "$work/fitted.yaml" --measured --whole "$@"; }
-draw --at 1.5s -o "$pictures/mimo.png" || echo "no picture: see the line above"
+draw --at 1.5s -o "$work/mimo.png" || echo "no picture: see the line above"
 if command -v ffmpeg >/dev/null; then
-  draw --from 1s --to 2s --fps 30 --size 640x360 -o "$pictures/mimo.mp4" || echo "no video: see the line above"
+  draw --from 1s --to 2s --fps 30 --size 640x360 -o "$work/mimo.mp4" || echo "no video: see the line above"
 fi
 
 printf '\nIn plain words: the model lacked %s at %s. What was hidden in the data stands in\n%s.\n' \
   "$effect" "$at" "validation/trials/leg_bench_demo/truth.json"
+printf 'To look at: file://%s\n' "$root/$work/report.html" "$root/$work"/mimo.*

@@ -52,6 +52,8 @@ const Pulley* Model::find_pulley(const std::string& name) const { return find_na
 const Sensor* Model::find_sensor(const std::string& name) const { return find_named(sensors, name); }
 const Ratio* Model::find_ratio(const std::string& name) const { return find_named(ratios, name); }
 
+const ContactSwitch* Model::find_switch(const std::string& name) const { return find_named(switches, name); }
+
 int Model::body_index(const std::string& name) const { return index_of(skeleton.bodies, name); }
 int Model::motor_index(const std::string& name) const { return index_of(motors, name); }
 int Model::sensor_index(const std::string& name) const { return index_of(sensors, name); }

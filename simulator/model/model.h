@@ -131,6 +131,13 @@ struct Sensor {
   double floor() const;
 };
 
+/// A switch that is closed (1) while a foot is in the ground, else open (0).
+struct ContactSwitch {
+  std::string name;
+  int foot = 0;  ///< index in Model::feet
+  std::string source;
+};
+
 /// A coordinate or motor held at a value by hand or by a clamp.
 struct Lock {
   std::string at;
@@ -150,12 +157,14 @@ struct Model {
   std::vector<Foot> feet;
   std::vector<EffectUse> effects;
   std::vector<Sensor> sensors;
+  std::vector<ContactSwitch> switches;  ///< among the file's sensors, but they measure no position
 
   const Coordinate* find_coordinate(const std::string& name) const;
   const Motor* find_motor(const std::string& name) const;
   const Pulley* find_pulley(const std::string& name) const;
   const Sensor* find_sensor(const std::string& name) const;
   const Ratio* find_ratio(const std::string& name) const;
+  const ContactSwitch* find_switch(const std::string& name) const;
   int body_index(const std::string& name) const;    ///< -1
   int motor_index(const std::string& name) const;   ///< -1
   int sensor_index(const std::string& name) const;  ///< -1

@@ -245,6 +245,16 @@ Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& m
   return sensor;
 }
 
+ContactSwitch read_switch(const std::string& name, const YamlNode& node, const Model& model) {
+  check_name(name, node);
+  node.allow_keys({"contact", "source", "assumed"});
+  const YamlNode foot = node.at("contact");
+  require_known(foot, foot.text(), model.places(effects::Place::foot), "foot of the model");
+  const auto is_it = [&](const Foot& one) { return one.name == foot.text(); };
+  const auto found = std::find_if(model.feet.begin(), model.feet.end(), is_it);
+  return {name, static_cast<int>(found - model.feet.begin()), read_origin(node).text};
+}
+
 Eigen::Vector3d read_point(const YamlNode& node) {
   const YamlNode value = node.at("value");
   const std::vector<YamlNode> numbers = value.items();
@@ -334,7 +344,11 @@ void read_feet(const YamlNode& node, Model& model) {
 
 void read_sensors(const YamlNode& node, Model& model) {
   for (const auto& [name, entry] : node.entries()) {
-    model.sensors.push_back(read_sensor(name, entry, model));
+    if (entry.is_map() && entry.has("contact")) {
+      model.switches.push_back(read_switch(name, entry, model));
+    } else {
+      model.sensors.push_back(read_sensor(name, entry, model));
+    }
   }
 }
 

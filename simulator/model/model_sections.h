@@ -17,9 +17,10 @@ void read_pulleys(const YamlNode& node, Model& model);
 /// ratios: needs coordinates, motors and pulleys.
 void read_ratios(const YamlNode& node, Model& model);
 void read_inertias(const YamlNode& node, Model& model);
-void read_sensors(const YamlNode& node, Model& model);
 /// feet: points of links that may meet the ground.
 void read_feet(const YamlNode& node, Model& model);
+/// sensors: of positions, and contact switches; needs feet.
+void read_sensors(const YamlNode& node, Model& model);
 
 /// One name means one thing among joints, coordinates, motors and pulleys; a coordinate may share the name of
 /// the joint that it is. `root` gives the line.

@@ -419,6 +419,7 @@ void Plant::set_value(ParameterId id, double value) {
       slot.active = !slot.law->is_null(values(slot.effect));
     }
   }
+  change_ground();
   for (const StructureSlot& slot : structures_) {
     if (slot.effect == id.effect) {
       structure_ = make_structure();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/contact_law.h"
+#include "contact/ground_change.h"
 #include "contact/terrain.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
@@ -27,6 +28,7 @@ struct SampleMotion {
   const double* command;        ///< of each motor, mean over the sample
   const double* command_slope;  ///< d(command)/d(delay) of each motor, 1/s
   double period;                ///< s
+  double hold = 0.0;            ///< s for which a command holds, where that is longer; 0: the period
 };
 
 /// A foot and the ground under it, in the world's axes.
@@ -36,6 +38,12 @@ struct Touch {
   double depth = 0.0;                                  ///< in the ground when above 0, m
   Eigen::Vector2d left = Eigen::Vector2d::UnitY();     ///< of its link (the frame's y) along the ground
   Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< of the ground on the foot, N
+};
+
+/// How deep a foot is in the ground (under 0: above it), m, and its rate, m/s.
+struct FootDepth {
+  double depth = 0.0;
+  double rate = 0.0;
 };
 
 /// Energy of a state and where power goes.
@@ -89,6 +97,13 @@ class Plant {
 
   /// The model's feet, in its order; one that no ground law holds reads zeros.
   std::vector<Touch> touches(const double* x);
+  /// Does any foot have a ground that presses?
+  bool meets_ground() const { return !feet_.empty(); }
+  /// Of one of the model's feet that has a ground; far above the ground where it has none.
+  FootDepth foot_depth(int foot, const double* x);
+  /// d(depth)/dz on level ground, 1 x positions; and d(depth)/d(parameters), 1 x parameters.
+  Eigen::RowVectorXd depth_slope(int foot, const double* x);
+  Eigen::RowVectorXd depth_slope(int foot, const std::vector<ParameterId>& parameters) const;
 
   /// Pure delay of a motor's command, s.
   double delay(int motor) const;
@@ -187,10 +202,16 @@ class Plant {
       const contact::TangentialLaw* law;
       int effect, state;
     };
+    struct Change {
+      const contact::GroundChangeLaw* law;
+      int effect;
+    };
     int foot = 0;   // index in the model
     int body = -1;  // in the mechanism's tree
     std::vector<Normal> normals;
     std::vector<Drag> drags;
+    std::vector<Change> changes;
+    double height = 0.0;  // of all changes, m
   };
   struct ActuatorSlot {
     const effects::ActuatorLaw* law = nullptr;
@@ -221,6 +242,10 @@ class Plant {
   void place_sensors();
   void place_ground(int& next_state);
   void find_feet();
+  void change_ground();
+  const FootSlot* slot_of(int foot) const;
+  void ground_parameter_tangent(const FootSlot& slot, const double* x, ParameterId id, double step,
+                                effects::Values moved, Eigen::Ref<Eigen::VectorXd> column);
   Touch touch(const FootSlot& slot) const;
   void press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const;
   void add_ground(const double* x, Eigen::VectorXd& Q, double* xdot);
@@ -236,6 +261,7 @@ class Plant {
   effects::Motion motion(const ForceSlot& slot, const double* x) const;
   effects::Motion half_change(const ForceSlot& slot, const double* change) const;
   const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
+  const double* on_ground(int effect) const { return on_ground_[static_cast<std::size_t>(effect)].data(); }
   void deliver_torques(const double* x, const double* command, double* xdot);
   void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
   void rigid_at(const double* x);
@@ -261,7 +287,8 @@ class Plant {
 
   Model model_;
   std::vector<effects::Values> values_;
-  std::vector<int> independent_;  // full coordinates that z are
+  std::vector<effects::Values> on_ground_;  // the same for the ground's laws, with its changes
+  std::vector<int> independent_;            // full coordinates that z are
   int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
   Eigen::MatrixXd S_, S_tree_;
   std::vector<std::vector<Entry>> S_rows_;  // of S_tree_

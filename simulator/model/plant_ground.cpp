@@ -1,6 +1,8 @@
 // Feet of a Plant on the ground.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "simulator/model/plant.h"
 #include "simulator/trace/error.h"
@@ -31,8 +33,37 @@ void Plant::place_ground(int& next_state) {
         next_state += drag->state_count();
       }
     }
+    for (int e = 0; e < static_cast<int>(model_.effects.size()); ++e) {
+      const EffectUse& use = model_.effects[static_cast<std::size_t>(e)];
+      if (const auto* change = dynamic_cast<const contact::GroundChangeLaw*>(use.law.get())) {
+        if (use.at == foot.name) {
+          slot.changes.push_back({change, e});
+        }
+      }
+    }
     if (!slot.normals.empty()) {
       feet_.push_back(std::move(slot));
+    }
+  }
+  change_ground();
+}
+
+void Plant::change_ground() {
+  if (feet_.empty()) {
+    return;
+  }
+  on_ground_ = values_;
+  for (FootSlot& slot : feet_) {
+    slot.height = 0.0;
+    for (const FootSlot::Change& use : slot.changes) {
+      const contact::GroundChange change = use.law->change(values(use.effect));
+      slot.height += change.height;
+      for (const FootSlot::Normal& normal : slot.normals) {
+        normal.law->apply(change, on_ground_[static_cast<std::size_t>(normal.effect)].data());
+      }
+      for (const FootSlot::Drag& drag : slot.drags) {
+        drag.law->apply(change, on_ground_[static_cast<std::size_t>(drag.effect)].data());
+      }
     }
   }
 }
@@ -57,7 +88,7 @@ Touch Plant::touch(const FootSlot& slot) const {
   if (left.norm() > 1e-3) {  // a link on its side has no left: then the world's
     touch.left = left.normalized();
   }
-  touch.depth = terrain_.height_at(touch.position.x()) - touch.position.z();
+  touch.depth = terrain_.height_at(touch.position.x()) - touch.position.z() + slot.height;
   return touch;
 }
 
@@ -68,14 +99,14 @@ void Plant::press(const FootSlot& slot, const double* x, Touch& touch, double* x
   const Eigen::Vector2d slip(forward.dot(velocity), touch.left.dot(velocity));
   touch.force.setZero();
   for (const FootSlot::Normal& use : slot.normals) {
-    touch.force.z() += use.law->force(touch.depth, rate, values(use.effect));
+    touch.force.z() += use.law->force(touch.depth, rate, on_ground(use.effect));
   }
   for (const FootSlot::Drag& use : slot.drags) {
     const double* state = use.state >= 0 ? x + use.state : nullptr;
-    const Eigen::Vector2d drag = use.law->force(slip, touch.force.z(), state, values(use.effect));
+    const Eigen::Vector2d drag = use.law->force(slip, touch.force.z(), state, on_ground(use.effect));
     touch.force.head<2>() += drag.x() * forward + drag.y() * touch.left;
     if (xdot != nullptr && use.state >= 0) {
-      use.law->state_rate(slip, touch.force.z(), state, values(use.effect), xdot + use.state);
+      use.law->state_rate(slip, touch.force.z(), state, on_ground(use.effect), xdot + use.state);
     }
   }
 }
@@ -193,8 +224,8 @@ void Plant::ground_energetics(const double* x, Energetics& e) const {
     Touch at = touch(slot);
     press(slot, x, at, nullptr);
     for (const FootSlot::Normal& use : slot.normals) {
-      e.stored += use.law->stored_energy(at.depth, values(use.effect));
-      e.dissipated += use.law->dissipated_power(at.depth, -at.velocity.z(), values(use.effect));
+      e.stored += use.law->stored_energy(at.depth, on_ground(use.effect));
+      e.dissipated += use.law->dissipated_power(at.depth, -at.velocity.z(), on_ground(use.effect));
     }
     // The energy in bristles scales with the load that presses them and leaves with it; what sliding takes is
     // booked as it goes.
@@ -211,6 +242,66 @@ std::vector<Touch> Plant::touches(const double* x) {
     press(slot, x, at, nullptr);
   }
   return all;
+}
+
+const Plant::FootSlot* Plant::slot_of(int foot) const {
+  const auto found =
+      std::find_if(feet_.begin(), feet_.end(), [&](const FootSlot& slot) { return slot.foot == foot; });
+  return found == feet_.end() ? nullptr : &*found;
+}
+
+FootDepth Plant::foot_depth(int foot, const double* x) {
+  const FootSlot* slot = slot_of(foot);
+  if (slot == nullptr) {
+    return {-std::numeric_limits<double>::infinity(), 0.0};
+  }
+  rigid_at(x);
+  const Touch at = touch(*slot);
+  return {at.depth, -at.velocity.z()};
+}
+
+Eigen::RowVectorXd Plant::depth_slope(int foot, const double* x) {
+  const FootSlot* slot = slot_of(foot);
+  if (slot == nullptr) {
+    return Eigen::RowVectorXd::Zero(nz_);
+  }
+  rigid_at(x);
+  return -foot_jacobian(*slot, touch(*slot)).row(2);
+}
+
+Eigen::RowVectorXd Plant::depth_slope(int foot, const std::vector<ParameterId>& parameters) const {
+  Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  const FootSlot* slot = slot_of(foot);
+  for (std::size_t p = 0; slot != nullptr && p < parameters.size(); ++p) {
+    for (const FootSlot::Change& use : slot->changes) {
+      if (use.effect == parameters[p].effect) {
+        effects::Values unit(values_[static_cast<std::size_t>(use.effect)].size(), 0.0);
+        const double before = use.law->change(unit.data()).height;
+        unit[static_cast<std::size_t>(parameters[p].parameter)] = 1.0;
+        slope[static_cast<Eigen::Index>(p)] = use.law->change(unit.data()).height - before;
+      }
+    }
+  }
+  return slope;
+}
+
+// The foot is where rate() has left it.
+void Plant::ground_parameter_tangent(const FootSlot& slot, const double* x, ParameterId id, double step,
+                                     effects::Values moved, Eigen::Ref<Eigen::VectorXd> column) {
+  effects::Values& stored = values_[static_cast<std::size_t>(id.effect)];
+  Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
+  Eigen::VectorXd up = now;
+  Touch before = touch(slot);
+  press(slot, x, before, now.data());
+  std::swap(stored, moved);
+  change_ground();
+  Touch after = touch(slot);
+  press(slot, x, after, up.data());
+  std::swap(stored, moved);
+  change_ground();
+  column = (up - now) / step;
+  column.segment(nz_, nz_) =
+      factor_.solve(foot_jacobian(slot, before).transpose() * ((after.force - before.force) / step));
 }
 
 }  // namespace plumbline::model

@@ -1,6 +1,7 @@
 // Linearisation of a Plant: what a window's sensitivities are built from.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/model/plant.h"
 
@@ -226,8 +227,9 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
       factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * ((after - before) / step);
   if (delay_change != 0.0) {
     // The command moves where it jumps, not in the middle of the sample.
-    const double jump = std::fmod(delay(motor), sample.period);
-    column += (0.5 * sample.period - jump) * (A * column).eval();
+    const double hold = sample.hold > 0.0 ? sample.hold : sample.period;
+    const double jump = std::fmod(delay(motor), hold);
+    column += (0.5 * hold - jump) * (A * column).eval();
   }
 }
 
@@ -256,25 +258,12 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
       return;
     }
   }
-  // The ground: the foot is where rate() has left it, in the middle of the sample.
-  effects::Values& stored = values_[static_cast<std::size_t>(id.effect)];
+  const std::string& at = model_.effects[static_cast<std::size_t>(id.effect)].at;
   for (const FootSlot& slot : feet_) {
-    if (model_.effects[static_cast<std::size_t>(id.effect)].at !=
-        model_.feet[static_cast<std::size_t>(slot.foot)].name) {
-      continue;
+    if (model_.feet[static_cast<std::size_t>(slot.foot)].name == at) {
+      ground_parameter_tangent(slot, x, id, step, std::move(moved), column);
+      return;
     }
-    Touch at = touch(slot);
-    Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
-    Eigen::VectorXd up = now;
-    press(slot, x, at, now.data());
-    const Eigen::Vector3d before = at.force;
-    std::swap(stored, moved);
-    press(slot, x, at, up.data());
-    std::swap(stored, moved);
-    column = (up - now) / step;
-    column.segment(nz_, nz_) =
-        factor_.solve(foot_jacobian(slot, at).transpose() * ((at.force - before) / step));
-    return;
   }
 }
 

@@ -85,8 +85,8 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const
   read_section(root, "ratios", read_ratios, model);
   check_ratios(root, model);
   read_section(root, "inertias", read_inertias, model);
-  read_section(root, "sensors", read_sensors, model);
   read_section(root, "feet", read_feet, model);
+  read_section(root, "sensors", read_sensors, model);
   if (const auto effects = root.find("effects")) {
     read_effects(*effects, catalogue, model);
   }

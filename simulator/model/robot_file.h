@@ -36,6 +36,6 @@ struct NewValue {
 /// name or a value is outside its bounds. The catalogue gives the parameters' names and units.
 void write_overlay(const std::string& path, const std::string& base_file,
                    const std::vector<AddedEffect>& added, const std::vector<NewValue>& values,
-                   const std::string& note, const effects::Catalogue& catalogue = effects::Catalogue::all());
+                   const std::string& note, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::model

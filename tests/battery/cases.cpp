@@ -1,6 +1,7 @@
 #include "tests/battery/cases.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 namespace plumbline::battery {
@@ -22,9 +23,10 @@ const std::vector<Removal>& leg_bench_removals() {
   return kRemovals;
 }
 
-void add_hidden(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
+void add_hidden(const std::string& robot, const std::vector<Row>& rows,
+                const std::vector<Strength>& strengths, std::vector<Case>& cases) {
   for (const Row& row : rows) {
-    for (const Strength strength : {Strength::weak, Strength::strong}) {
+    for (const Strength strength : strengths) {
       cases.push_back({robot + "/" + row.effect + "@" + row.at + "/" + to_string(strength),
                        robot,
                        Kind::hidden,
@@ -54,6 +56,13 @@ void add_removed(const std::string& robot, const std::vector<Row>& rows, std::ve
   }
 }
 
+void add_foreign(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
+  for (const Row& row : rows) {
+    cases.push_back(
+        {robot + "/foreign/" + row.effect + "@" + row.at, robot, Kind::foreign, Strength::strong, row, {}});
+  }
+}
+
 /// Does the motor's angle alone fix this coordinate?
 bool is_tied_to_motor(const model::Model& model, const std::string& coordinate) {
   const model::Ratio* ratio = model.find_ratio(coordinate);
@@ -76,17 +85,30 @@ std::string to_string(Kind kind) {
       return "hidden";
     case Kind::none:
       return "none";
+    case Kind::foreign:
+      return "foreign";
     case Kind::removed:
       break;
   }
   return "removed";
 }
 
-std::string to_string(Strength strength) { return strength == Strength::weak ? "weak" : "strong"; }
+std::string to_string(Strength strength) {
+  switch (strength) {
+    case Strength::weak:
+      return "weak";
+    case Strength::medium:
+      return "medium";
+    case Strength::strong:
+      break;
+  }
+  return "strong";
+}
 
 const std::vector<Robot>& robots() {
   static const std::string kMabel = "robots/mabel/";
   static const std::string kPendulum = "tests/robots/pendulum/";
+  static const std::string kHopper = "robots/hopper/";
   static const std::vector<Robot> kRobots{
       {"leg_bench",
        kMabel + "leg_bench.yaml",
@@ -95,7 +117,10 @@ const std::vector<Robot>& robots() {
       {"pendulum",
        kPendulum + "model.yaml",
        {kPendulum + "experiments/chirp.yaml", kPendulum + "experiments/steps.yaml",
-        kPendulum + "experiments/multisine.yaml"}}};
+        kPendulum + "experiments/multisine.yaml"}},
+      {"hopper",
+       kHopper + "hopper.yaml",
+       {kHopper + "experiments/bounce.yaml", kHopper + "experiments/steps.yaml"}}};
   return kRobots;
 }
 
@@ -108,13 +133,29 @@ const Robot& robot_of(const Case& one) {
   throw std::out_of_range("no robot " + one.robot);
 }
 
+std::vector<std::string> robots_of_rig(const std::string& rig) {
+  const std::map<std::string, std::vector<std::string>> rigs{{"bench", {"leg_bench"}},
+                                                             {"pendulum", {"pendulum"}},
+                                                             {"hopper", {"hopper"}},
+                                                             {"all", {"leg_bench", "pendulum", "hopper"}}};
+  const auto found = rigs.find(rig);
+  if (found == rigs.end()) {
+    throw std::invalid_argument("--rig: found '" + rig + "', expected bench, pendulum, hopper or all");
+  }
+  return found->second;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
-  add_hidden("leg_bench", leg_bench_rows(), cases);
+  const std::vector<Strength> two{Strength::weak, Strength::strong};
+  add_hidden("leg_bench", leg_bench_rows(), two, cases);
   add_none("leg_bench", 5, cases);
   add_removed("leg_bench", leg_bench_rows(), cases);
-  add_hidden("pendulum", pendulum_rows(), cases);
+  add_hidden("pendulum", pendulum_rows(), two, cases);
   add_none("pendulum", 1, cases);
+  add_hidden("hopper", hopper_rows(), {Strength::weak, Strength::medium, Strength::strong}, cases);
+  add_none("hopper", 6, cases);
+  add_foreign("hopper", hopper_foreign_rows(), cases);
   return cases;
 }
 
@@ -125,6 +166,25 @@ std::vector<Row> expected_leg_bench_rows(const model::Model& model, const effect
       for (const std::string& at : model.places(place)) {
         if (!is_left_out(model, *law, place, at)) {
           expected.push_back({law->declaration().name, at, ""});
+        }
+      }
+    }
+  }
+  return expected;
+}
+
+std::vector<Row> expected_hopper_rows(const model::Model& model, const effects::Catalogue& catalogue) {
+  std::vector<Row> expected;
+  for (const auto& law : catalogue.laws()) {
+    const std::string& name = law->declaration().name;
+    const bool unseen = law->sits_at(Place::world) || name == "com_shift" || name == "ground_friction_error";
+    const bool is_the_ground = name == "ground_normal" || name == "ground_friction";
+    for (const Place place : law->declaration().places) {
+      for (const std::string& at : model.places(place)) {
+        const bool motor_s =
+            place == Place::coordinate && law->sits_at(Place::motor) && is_tied_to_motor(model, at);
+        if (!unseen && !is_the_ground && !motor_s) {
+          expected.push_back({name, at, ""});
         }
       }
     }

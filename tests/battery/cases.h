@@ -12,10 +12,11 @@ namespace plumbline::battery {
 
 /// hidden: the effect is in the data and in the catalogue. none: nothing is in the data that the model does
 /// not have. removed: the effect is in the data, but the catalogue knows neither it nor laws that contain it.
-enum class Kind { hidden, none, removed };
+/// foreign: what is in the data is a law that only this test knows.
+enum class Kind { hidden, none, removed, foreign };
 std::string to_string(Kind kind);
 
-enum class Strength { weak, strong };
+enum class Strength { weak, medium, strong };
 std::string to_string(Strength strength);
 
 /// Files are relative to the project's root.
@@ -26,8 +27,8 @@ struct Robot {
 };
 
 /// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is
-/// NUMBER, or WEAK|STRONG when it differs between the strengths; BASE+NUMBER or BASE-NUMBER adds a base that
-/// is never varied ("scale=1+0.01|0.1", "rest=0.35-0.05").
+/// NUMBER, or WEAK|STRONG or WEAK|MEDIUM|STRONG when it differs between the strengths; BASE+NUMBER or
+/// BASE-NUMBER adds a base that is never varied ("scale=1+0.01|0.1", "rest=0.35-0.05").
 struct Row {
   std::string effect, at, parameters;
 };
@@ -48,6 +49,12 @@ const Robot& robot_of(const Case& one);
 /// The tables (table.cpp).
 const std::vector<Row>& leg_bench_rows();
 const std::vector<Row>& pendulum_rows();
+const std::vector<Row>& hopper_rows();
+/// Laws of foreign_laws.h.
+const std::vector<Row>& hopper_foreign_rows();
+
+/// The robots of a rig: bench, pendulum, hopper or all. Throws std::invalid_argument for another name.
+std::vector<std::string> robots_of_rig(const std::string& rig);
 
 /// All cases in the order of the tables.
 std::vector<Case> all_cases();
@@ -56,5 +63,8 @@ std::vector<Case> all_cases();
 /// where it can sit, but a law that sits at motors is left out at coordinates that are rigidly a motor's, and
 /// bodies that the bench hides behind rigid ratios (or that do not move) are left out.
 std::vector<Row> expected_leg_bench_rows(const model::Model& model, const effects::Catalogue& catalogue);
+/// The same for the hopper: nothing on it turns and its foot does not slip, so that a centre of mass, a small
+/// tilt of gravity and the ground's friction move nothing.
+std::vector<Row> expected_hopper_rows(const model::Model& model, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::battery

@@ -9,8 +9,10 @@
 #include <memory>
 #include <set>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
+#include "tests/battery/foreign_laws.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::battery {
@@ -38,15 +40,15 @@ std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT
 
 /// The use that the command line would make of what the case hides.
 model::EffectUse use_of(const Case& one, const model::Model& model, std::uint64_t seed) {
-  const effects::Catalogue all = effects::Catalogue::all();
+  const effects::Catalogue all = every_law();
   Draw draw(one, seed);
-  return validation::parse_effect(drawn_effect(one, all, draw), model, all);
+  return validation::parse_effect(drawn_effect(one, all, draw), with_foreign_places(model), all);
 }
 
 void check_hidden(const Case& one, const model::Model& model, Checks& checks) {
   const effects::Values a = use_of(one, model, 1).numbers();
   const effects::Values b = use_of(one, model, 2).numbers();
-  const std::shared_ptr<const effects::Law> law = effects::Catalogue::all().find(one.row.effect);
+  const std::shared_ptr<const effects::Law> law = every_law().find(one.row.effect);
   checks.expect(!law->is_null(a.data()), one.name + " hides nothing");
   checks.expect(a != b, one.name + " draws the same values from different seeds");
   checks.expect(a == use_of(one, model, 1).numbers(), one.name + " draws different values from one seed");
@@ -76,7 +78,7 @@ void check_removed(const Case& one, Checks& checks) {
 std::map<std::string, model::Model> read_models() {
   std::map<std::string, model::Model> models;
   for (const Robot& robot : robots()) {
-    models[robot.name] = model::read_model(in_root(robot.model), effects::Catalogue::all());
+    models[robot.name] = model::read_model(in_root(robot.model), model::known_effects());
   }
   return models;
 }
@@ -110,17 +112,22 @@ void check_experiments(const std::map<std::string, model::Model>& models, Checks
   }
 }
 
-void check_complete(const model::Model& model, Checks& checks) {
-  const effects::Catalogue all = effects::Catalogue::all();
-  const std::vector<Row>& rows = leg_bench_rows();
+void check_rows(const std::vector<Row>& rows, const std::vector<Row>& expected, Checks& checks) {
   const auto rows_of = [&](const std::string& effect, const std::string& at) {
     return std::count_if(rows.begin(), rows.end(),
                          [&](const Row& row) { return row.effect == effect && row.at == at; });
   };
-  for (const Row& row : expected_leg_bench_rows(model, all)) {
+  for (const Row& row : expected) {
     checks.expect(rows_of(row.effect, row.at) == 1,
-                  "tests/battery/table.cpp needs one row for " + row.effect + "@" + row.at);
+                  "the table needs one row for " + row.effect + "@" + row.at);
   }
+}
+
+void check_complete(const model::Model& model, const model::Model& hopper, Checks& checks) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  const std::vector<Row>& rows = leg_bench_rows();
+  check_rows(rows, expected_leg_bench_rows(model, all), checks);
+  check_rows(hopper_rows(), expected_hopper_rows(hopper, model::known_effects()), checks);
   for (const auto& law : all.laws()) {
     const std::string& name = law->declaration().name;
     checks.expect(std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.effect == name; }),
@@ -137,7 +144,7 @@ int main() {
     const auto models = plumbline::battery::read_models();
     plumbline::battery::check_experiments(models, checks);
     plumbline::battery::check_cases(models, checks);
-    plumbline::battery::check_complete(models.at("leg_bench"), checks);
+    plumbline::battery::check_complete(models.at("leg_bench"), models.at("hopper"), checks);
     return checks.finish();
   } catch (const std::exception& error) {
     fmt::print(stderr, "FAILED: {}\n", error.what());

@@ -4,6 +4,7 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace plumbline::battery {
 namespace {
@@ -49,17 +50,27 @@ struct Nominal {
   double varied = 0.0;
 };
 
-/// [BASE(+|-)]NUMBER or [BASE(+|-)]WEAK|STRONG
+/// WEAK|STRONG or WEAK|MEDIUM|STRONG
+double of_strength(const std::string& text, Strength strength) {
+  std::vector<std::string> parts;
+  std::stringstream all(text);
+  for (std::string part; std::getline(all, part, '|');) {
+    parts.push_back(part);
+  }
+  if (parts.size() == 2 && strength == Strength::medium) {
+    throw std::invalid_argument("'" + text + "' has no medium strength");
+  }
+  return number(strength == Strength::weak     ? parts.front()
+                : strength == Strength::medium ? parts[1]
+                                               : parts.back());
+}
+
+/// [BASE(+|-)]NUMBER, or strengths in the number's place
 Nominal read_value(const std::string& text, Strength strength) {
   const std::size_t split = end_of_base(text);
   const std::string varied = split == std::string::npos ? text : text.substr(split + 1);
-  const std::size_t bar = varied.find('|');
   Nominal nominal;
-  if (bar == std::string::npos) {
-    nominal.varied = number(varied);
-  } else {
-    nominal.varied = number(strength == Strength::weak ? varied.substr(0, bar) : varied.substr(bar + 1));
-  }
+  nominal.varied = of_strength(varied, strength);
   if (split != std::string::npos) {
     nominal.base = number(text.substr(0, split));
     nominal.varied *= text[split] == '-' ? -1.0 : 1.0;

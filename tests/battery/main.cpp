@@ -17,15 +17,20 @@ struct Inputs {
   RunOptions run;
   std::vector<std::string> only;
   std::size_t subset = 0;
+  std::string rig = "all";
   bool list = false;
   bool explain = false;
   std::string json, csv;
 };
 
-/// Cases whose name contains one of the words; all when there are none.
-std::vector<Case> chosen(const std::vector<std::string>& words) {
+/// Cases of the rig whose name contains one of the words; all when there are none.
+std::vector<Case> chosen(const std::string& rig, const std::vector<std::string>& words) {
   std::vector<Case> cases = all_cases();
+  const std::vector<std::string> robots = robots_of_rig(rig);
   const auto is_left_out = [&](const Case& one) {
+    if (std::find(robots.begin(), robots.end(), one.robot) == robots.end()) {
+      return true;
+    }
     return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
       return one.name.find(word) != std::string::npos;
     });
@@ -60,7 +65,7 @@ void show_bare(const Result& result) {
 }
 
 int run(const Inputs& inputs) {
-  const std::vector<Case> cases = subset(chosen(inputs.only), inputs.subset, inputs.run.seed);
+  const std::vector<Case> cases = subset(chosen(inputs.rig, inputs.only), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
@@ -111,6 +116,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", inputs.only, "only cases whose name contains SUBSTRING; may be repeated")
       ->type_name("SUBSTRING")
       ->allow_extra_args(false);
+  app.add_option("--rig", inputs.rig, "bench, pendulum, hopper or all")->capture_default_str();
   app.add_option("--subset", inputs.subset, "only K cases, drawn with the seed")->type_name("K");
   app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
   app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");

@@ -109,6 +109,7 @@ Summary summarise(const std::vector<Result>& results, const Targets& targets) {
         summary.named_on_none += named;
         break;
       case Kind::removed:
+      case Kind::foreign:
         ++summary.removed;
         summary.confident_wrong += result.verdict == "missing" ? 1 : 0;
         break;

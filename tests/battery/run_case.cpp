@@ -3,8 +3,10 @@
 #include <chrono>
 #include <exception>
 
+#include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
+#include "tests/battery/foreign_laws.h"
 #include "validation/compare/compare.h"
 #include "validation/twin/twin.h"
 
@@ -13,11 +15,15 @@ namespace {
 
 constexpr double kTwinTolerance = 1e-9;
 
-/// Varies what a command does about its mean, which holds the robot against gravity.
+/// Varies what a command does about its mean, which holds the robot against gravity, and what a controller is
+/// asked to follow.
 void vary_amplitudes(validation::Experiment& experiment, Draw& draw) {
   for (validation::Command& command : experiment.commands) {
     const double mean = command.values.mean();
     command.values = (mean + draw.factor() * (command.values.array() - mean)).matrix();
+  }
+  for (validation::Controller& controller : experiment.controllers) {
+    controller.reference *= draw.factor();
   }
 }
 
@@ -27,7 +33,8 @@ std::vector<validation::Trial> trials_of(const Case& one, const model::Model& ba
                                          Draw& draw, const RunOptions& run) {
   model::Model truth = bare;
   if (!with.empty()) {
-    truth.effects.push_back(validation::parse_effect(with, bare, effects::Catalogue::all()));
+    truth = one.kind == Kind::foreign ? with_foreign_places(bare) : bare;
+    truth.effects.push_back(validation::parse_effect(with, truth, every_law()));
   }
   validation::TwinOptions options;
   options.seed = run.seed;
@@ -59,7 +66,8 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;
   result.right = (result.one.kind == Kind::none && diagnosis.accepted.empty()) ||
-                 (result.one.kind == Kind::removed && diagnosis.verdict != validation::Verdict::missing);
+                 ((result.one.kind == Kind::removed || result.one.kind == Kind::foreign) &&
+                  diagnosis.verdict != validation::Verdict::missing);
   if (diagnosis.accepted.empty()) {
     return;
   }
@@ -82,7 +90,7 @@ void judge(const validation::Diagnosis& diagnosis, Result& result) {
 }
 
 effects::Catalogue catalogue_of(const Case& one) {
-  effects::Catalogue catalogue = effects::Catalogue::all();
+  effects::Catalogue catalogue = model::known_effects();
   for (const std::string& law : one.removed) {
     catalogue = catalogue.without(law);
   }
@@ -91,11 +99,11 @@ effects::Catalogue catalogue_of(const Case& one) {
 
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
-  const effects::Catalogue all = effects::Catalogue::all();
+  const effects::Catalogue all = model::known_effects();
   const model::Model bare = model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, all);
   Draw draw(one, options.seed);
   if (one.kind != Kind::none) {
-    result.with = drawn_effect(one, all, draw);
+    result.with = drawn_effect(one, every_law(), draw);
   }
   const validation::Data data(trials_of(one, bare, result.with, draw, options), {});
   result.bare = validation::compare(bare, data).scores.held_out;

@@ -123,8 +123,8 @@ TEST_P(EveryGroundLaw, KnowsWhenItIsNull) {
   EXPECT_FALSE(law().is_null(random.parameters(law()).data()));
 }
 
-TEST(GroundLaws, AreTheNormalAndTheTangentialOne) {
-  ASSERT_EQ(ground_laws().size(), 2U);
+TEST(GroundLaws, AreTheNormalAndTheTangentialOneAndTheirErrors) {
+  ASSERT_EQ(ground_laws().size(), 6U);
   ASSERT_TRUE(normal_law());
   ASSERT_TRUE(tangential_law());
   EXPECT_EQ(normal_law()->declaration().name, "ground_normal");

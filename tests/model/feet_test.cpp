@@ -149,6 +149,50 @@ TEST_F(FeetTest, AStateThatIsNoNumberGivesRatesThatAreNone) {
   EXPECT_FALSE(rate.allFinite());
 }
 
+TEST_F(FeetTest, AContactSwitchIsReadAndNamesAFoot) {
+  folder_.write("block.sdf", kSkeleton);
+  const auto with_switch = [&](const std::string& entry) {
+    const std::string text =
+        model_text(9.81, kFoot, ground(0.0, false)) + "sensors:\n  sole: " + entry + "\n";
+    return read_model(folder_.write("model.yaml", text), known_effects());
+  };
+  const Model read = with_switch("{contact: foot, assumed: test}");
+  ASSERT_EQ(read.switches.size(), 1U);
+  EXPECT_EQ(read.switches[0].name, "sole");
+  EXPECT_EQ(read.switches[0].foot, 0);
+  EXPECT_TRUE(read.sensors.empty());
+  const auto refusal_of = [&](const std::string& entry) -> std::string {
+    try {
+      with_switch(entry);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal_of("{contact: fot, assumed: test}"), AllOf(HasSubstr("fot"), HasSubstr("foot")));
+  EXPECT_THAT(refusal_of("{contact: foot, measures: x, assumed: test}"), HasSubstr("measures"));
+}
+
+// A ground that is 3 mm higher stops the block 3 mm higher; one of twice the stiffness lets it sink 2^(2/3)
+// times less (Hertz).
+TEST_F(FeetTest, ErrorsOfTheGroundMoveWhereTheBlockRests) {
+  const auto rest = [&](const std::string& effects) {
+    Plant plant(model(9.81, kFoot, ground(0.0, false) + effects), {});
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+    x[1] = 0.2995;
+    const integrate::RunResult result = run(plant, x, 2000);
+    return result.states(1, 1999);
+  };
+  const auto effect = [](const std::string& name, const std::string& value) {
+    return "  - effect: " + name + "\n    at: foot\n    values: {" + value + ", assumed: test}}\n";
+  };
+  const double sunk = 0.3 - rest("");
+  ASSERT_GT(sunk, 3e-4);
+  EXPECT_NEAR(rest(effect("ground_height_error", "height: {value: 3, unit: mm")), 0.303 - sunk, 2e-6);
+  EXPECT_NEAR(rest(effect("ground_stiffness_error", "scale: {value: 2, unit: '1'")),
+              0.3 - sunk * std::pow(2.0, -2.0 / 3.0), 2e-6);
+}
+
 TEST_F(FeetTest, BadFeetAreRefused) {
   EXPECT_THAT(refusal("{link: blok, value: [0, 0, 0], unit: m, assumed: test}"),
               AllOf(HasSubstr("model.yaml"), HasSubstr("blok"), HasSubstr("block")));

@@ -114,7 +114,7 @@ void run(const Options& options) {
   model::EffectUse use = parse(options, model);
   fill_in(options, model, use);
   model::write_overlay(options.out, base, {{options.effect, options.at, use.numbers()}}, {},
-                       use.label() + ", added with start values");
+                       use.label() + ", added with start values", model::known_effects());
   write_json(to_json(use, model, options), options.json);
   print(use, model, options);
 }
@@ -128,7 +128,7 @@ void add_add(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("effect", options->effect, "name from `plumbline effects`")
       ->required()
       ->type_name("EFFECT");
-  command->add_option("--at", options->at, "coordinate, motor, ratio, body, sensor, or world")
+  command->add_option("--at", options->at, "coordinate, motor, ratio, body, sensor, foot, or world")
       ->required()
       ->type_name("WHERE");
   CLI::Option_group* base = command->add_option_group("base", "the model that it is added to");

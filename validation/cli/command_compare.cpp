@@ -4,6 +4,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/compare/compare.h"
+#include "validation/report/result_json.h"
 
 namespace plumbline::cli {
 namespace {
@@ -11,31 +12,6 @@ namespace {
 using validation::ChannelError;
 using validation::Comparison;
 using validation::WindowError;
-
-nlohmann::json to_json(const Comparison& comparison) {
-  nlohmann::json json;
-  json["train"] = comparison.scores.train;
-  json["held_out"] = comparison.scores.held_out;
-  json["channels"] = nlohmann::json::array();
-  for (const ChannelError& c : comparison.channels) {
-    json["channels"].push_back({{"trial", c.trial},
-                                {"name", c.name},
-                                {"unit", c.unit},
-                                {"role", to_string(c.role)},
-                                {"rms", c.rms},
-                                {"floor", c.floor},
-                                {"ratio", c.ratio}});
-  }
-  json["windows"] = nlohmann::json::array();
-  for (const WindowError& w : comparison.windows) {
-    json["windows"].push_back({{"trial", w.trial},
-                               {"from", w.from},
-                               {"to", w.to},
-                               {"ratio", w.ratio},
-                               {"worst_channel", w.worst_channel}});
-  }
-  return json;
-}
 
 void print(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows;
@@ -69,7 +45,7 @@ void add_compare(CLI::App& app, Outcome& /*outcome*/) {
   command->callback([inputs] {
     const Loaded loaded = load(*inputs, catalogue_for(*inputs));
     const Comparison comparison = validation::compare(loaded.model, *loaded.data);
-    write_json(to_json(comparison), inputs->json);
+    write_json(validation::to_json(comparison), inputs->json);
     print(comparison);
   });
 }

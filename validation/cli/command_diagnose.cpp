@@ -7,7 +7,10 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/diagnose/diagnose.h"
+#include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/unexplained.h"
+#include "validation/report/result_json.h"
+#include "validation/report/sentences.h"
 
 namespace plumbline::cli {
 namespace {
@@ -15,83 +18,12 @@ namespace {
 using validation::Diagnosis;
 using validation::Finding;
 using validation::Named;
+using validation::OwnParameter;
 using validation::ParameterValue;
 using validation::RankRow;
 using validation::Verdict;
 
-nlohmann::json to_json(const RankRow& row) {
-  return {{"effect", row.effect},
-          {"at", row.at},
-          {"score", row.score},
-          {"held_out_after", row.held_out_after},
-          {"train_after", row.train_after},
-          {"refitted", row.refitted},
-          {"remark", row.remark}};
-}
-
-nlohmann::json to_json(const Finding& finding) {
-  nlohmann::json json{{"effect", finding.effect},
-                      {"at", finding.at},
-                      {"held_out_before", finding.held_out_before},
-                      {"held_out_after", finding.held_out_after},
-                      {"train_before", finding.train_before},
-                      {"train_after", finding.train_after},
-                      {"selected_share", finding.selected_share},
-                      {"rivals", nlohmann::json::array()},
-                      {"parameters", nlohmann::json::array()}};
-  for (const Named& rival : finding.rivals) {
-    json["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
-  }
-  for (const ParameterValue& p : finding.parameters) {
-    json["parameters"].push_back(
-        {{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"standard_deviation", p.deviation}});
-  }
-  return json;
-}
-
-nlohmann::json to_json(const Diagnosis& diagnosis) {
-  nlohmann::json json;
-  json["verdict"] = validation::to_string(diagnosis.verdict);
-  json["unexplained_share"] = diagnosis.unexplained_share;
-  json["candidates"] = diagnosis.candidates;
-  json["interrupted"] = diagnosis.interrupted;
-  for (const char* key : {"accepted", "ranking", "leads", "ladder"}) {
-    json[key] = nlohmann::json::array();
-  }
-  for (const Finding& finding : diagnosis.accepted) {
-    json["accepted"].push_back(to_json(finding));
-  }
-  for (const RankRow& row : diagnosis.ranking) {
-    json["ranking"].push_back(to_json(row));
-  }
-  for (const RankRow& row : diagnosis.leads) {
-    json["leads"].push_back(to_json(row));
-  }
-  for (const validation::Rung& rung : diagnosis.ladder) {
-    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});
-  }
-  return json;
-}
-
 using validation::UnexplainedForce;
-
-nlohmann::json to_json(const UnexplainedForce& force) {
-  nlohmann::json json{{"trial", force.trial},
-                      {"motor", force.motor},
-                      {"unit", force.unit},
-                      {"rms", force.rms},
-                      {"relative", force.relative},
-                      {"words", force.words},
-                      {"dependences", nlohmann::json::array()}};
-  for (const validation::Dependence& d : force.dependences) {
-    json["dependences"].push_back({{"variable", d.variable},
-                                   {"unit", d.unit},
-                                   {"share", d.share},
-                                   {"center", d.center},
-                                   {"mean", d.mean}});
-  }
-  return json;
-}
 
 /// The force that the final model does not explain, where the inverse model can tell.
 void print_unexplained(const std::vector<UnexplainedForce>& forces) {
@@ -126,30 +58,12 @@ void print_verdict(const Diagnosis& diagnosis) {
                last.held_out());
     return;
   }
-  switch (diagnosis.verdict) {
-    case Verdict::nothing_missing:
-      fmt::print(
-          "Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
-          "alone would leave.\n",
-          last.held_out());
-      return;
-    case Verdict::unexplained:
-      fmt::print(
-          "Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
-          "explains it.{}\n",
-          last.held_out(),
-          diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
-      break;
-    case Verdict::missing:
-      break;
+  const std::string verdict = validation::verdict_sentence(diagnosis);
+  if (!verdict.empty()) {
+    fmt::print("{}\n", verdict);
   }
   for (const Finding& finding : diagnosis.accepted) {
-    fmt::print(
-        "{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
-        "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.\n",
-        diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at,
-        finding.held_out_before, finding.held_out_after, finding.train_before, finding.train_after,
-        100.0 * finding.selected_share);
+    fmt::print("{}\n", validation::finding_sentences(finding, diagnosis.verdict));
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
       fmt::print("  {} = {:.4g} +- {:.2g} {}\n", p.name, p.value, p.deviation, p.unit);
@@ -181,6 +95,20 @@ void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
   print_table({"effect", "at", "train", "held-out", "", "remark"}, rows);
 }
 
+/// What the fit made of the numbers that the model states with an uncertainty.
+void print_own_parameters(const std::vector<OwnParameter>& parameters) {
+  if (parameters.empty()) {
+    return;
+  }
+  fmt::print("\nThe model's own numbers, within what is stated of them:\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const OwnParameter& p : parameters) {
+    rows.push_back({p.label, fmt::format("{:.4g} +- {:.2g} {}", p.stated, p.stated_deviation, p.unit),
+                    fmt::format("{:.4g}", p.value), fmt::format("{:+.1f}", p.shift())});
+  }
+  print_table({"parameter", "stated", "fitted", "shift in deviations"}, rows);
+}
+
 void print(const Diagnosis& diagnosis) {
   print_verdict(diagnosis);
   fmt::print("\nLadder (error in units of the floor):\n\n");
@@ -189,6 +117,7 @@ void print(const Diagnosis& diagnosis) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out())});
   }
   print_table({"model", "train", "held-out"}, rows);
+  print_own_parameters(validation::own_values(diagnosis.final_stage));
   if (!diagnosis.ranking.empty()) {
     fmt::print("\nBest candidates of the first round, of {} screened:\n\n", diagnosis.candidates);
     print_rows(diagnosis.ranking, 10);
@@ -199,15 +128,19 @@ void print(const Diagnosis& diagnosis) {
   }
 }
 
-void save_model(const Diagnosis& diagnosis, const std::string& base, const std::string& file) {
+/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
+void save_model(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
   std::vector<model::AddedEffect> added;
   std::vector<model::NewValue> values;
   validation::Stage stage = diagnosis.final_stage;
   stage.model = validation::with_values(stage.model, stage.parameters, stage.estimate.theta);
-  const std::size_t own = stage.model.effects.size() - diagnosis.accepted.size();
+  const std::size_t own = given.effects.size();
   for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
     const model::EffectUse& use = stage.model.effects[e];
-    added.push_back({use.law->declaration().name, use.at, use.numbers()});
+    const effects::Values numbers = use.numbers();
+    if (!use.law->is_null(numbers.data())) {
+      added.push_back({use.law->declaration().name, use.at, numbers});
+    }
   }
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
     const auto& parameter = stage.parameters[p];
@@ -216,7 +149,8 @@ void save_model(const Diagnosis& diagnosis, const std::string& base, const std::
                         parameter.unit, "diagnose"});
     }
   }
-  model::write_overlay(file, base, added, values, "written by plumbline diagnose");
+  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
+                       model::known_effects());
 }
 
 }  // namespace
@@ -257,14 +191,9 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       left = validation::unexplained_forces(
           validation::with_values(stage.model, stage.parameters, stage.estimate.theta), *loaded.data);
     }
-    nlohmann::json json = to_json(diagnosis);
-    json["unexplained_forces"] = nlohmann::json::array();
-    for (const UnexplainedForce& force : left) {
-      json["unexplained_forces"].push_back(to_json(force));
-    }
-    write_json(json, options->inputs.json);
+    write_json(validation::to_json(diagnosis, left), options->inputs.json);
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
-      save_model(diagnosis, loaded.model.file, options->save);
+      save_model(diagnosis, loaded.model, options->save);
     }
     print(diagnosis);
     print_unexplained(left);

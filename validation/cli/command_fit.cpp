@@ -139,7 +139,7 @@ void save_model(const Fit& fit, const Loaded& loaded, const std::string& file) {
       values.push_back({parameter.label, parameter.after, parameter.deviation, parameter.unit, source});
     }
   }
-  model::write_overlay(file, loaded.model.file, {}, values, "values " + source);
+  model::write_overlay(file, loaded.model.file, {}, values, "values " + source, model::known_effects());
 }
 
 void run(const Options& options) {

@@ -14,6 +14,7 @@
 #include "validation/closed_loop/closed_loop.h"
 #include "validation/closed_loop/reference.h"
 #include "validation/compare/compare.h"
+#include "validation/compare/rung_name.h"
 #include "validation/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
@@ -51,26 +52,6 @@ struct Rung {
   std::vector<TrialErrors> trials;
 };
 
-/// The file's name, and the effects that it has and the model below it has not.
-std::string rung_name(const model::Model& model, const std::set<std::string>& known) {
-  std::string name = fs::path(model.file).filename().string();
-  for (const model::EffectUse& use : model.effects) {
-    const std::string label = use.law->declaration().name + "@" + use.at;
-    if (!known.empty() && known.count(label) == 0) {
-      name += " + " + label;
-    }
-  }
-  return name;
-}
-
-std::set<std::string> effects_of(const model::Model& model) {
-  std::set<std::string> labels{""};  // never empty, so that a bare model counts as known
-  for (const model::EffectUse& use : model.effects) {
-    labels.insert(use.law->declaration().name + "@" + use.at);
-  }
-  return labels;
-}
-
 std::vector<std::string> model_files(const LadderInputs& ladder) {
   if (ladder.models.size() > 1) {
     return ladder.models;
@@ -80,11 +61,11 @@ std::vector<std::string> model_files(const LadderInputs& ladder) {
   return model::read_model(file, model::known_effects()).lineage;
 }
 
-Rung climb(const Loaded& loaded, const std::set<std::string>& known) {
+Rung climb(const Loaded& loaded, const validation::EffectNames& known) {
   Rung rung;
   rung.file = loaded.model.file;
   rung.lineage = loaded.model.lineage;
-  rung.name = rung_name(loaded.model, known);
+  rung.name = validation::rung_name(loaded.model, known);
   rung.has_train = loaded.data->has(validation::Role::train);
   rung.has_held_out = loaded.data->has(validation::Role::held_out);
   rung.scores = validation::compare(loaded.model, *loaded.data).scores;
@@ -306,7 +287,7 @@ void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& pu
 void run(const LadderInputs& ladder) {
   check_writable(ladder.inputs.json);
   std::vector<Rung> rungs;
-  std::set<std::string> known;
+  validation::EffectNames known;
   {
     ProgressLine progress;
     const validation::Progress report = progress.callback();
@@ -318,7 +299,7 @@ void run(const LadderInputs& ladder) {
       inputs.model = files[i];
       const Loaded loaded = load(inputs, model::known_effects());
       rungs.push_back(climb(loaded, known));
-      known = effects_of(loaded.model);
+      known = validation::effect_names(loaded.model);
     }
   }
   const std::string file = validation::reference_beside(rungs.front().lineage.front());

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace plumbline::cli {
 
@@ -20,6 +22,8 @@ void add_fit(CLI::App& app, Outcome& outcome);
 void add_diagnose(CLI::App& app, Outcome& outcome);
 void add_add(CLI::App& app, Outcome& outcome);
 void add_ladder(CLI::App& app, Outcome& outcome);
+/// `words`: the command line, for whoever wants to repeat it.
+void add_report(CLI::App& app, const std::vector<std::string>& words);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);

@@ -5,6 +5,7 @@
 #include "validation/cli/describe.h"
 #include "validation/cli/files.h"
 #include "validation/cli/output.h"
+#include "validation/report/model_json.h"
 
 namespace plumbline::cli {
 namespace {
@@ -32,118 +33,6 @@ std::string sum_text(const std::vector<model::Term>& terms) {
 
 std::string origin_text(const Quantity& quantity) {
   return (quantity.assumed ? "assumed: " : "") + quantity.source;
-}
-
-/// The unit of a law's parameter where the effect sits.
-std::string unit_of(const Model& model, const model::EffectUse& use, std::size_t parameter) {
-  const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
-  return effects::unit_at(use.law->declaration().parameters[parameter].unit, angular);
-}
-
-json to_json(const Quantity& quantity, const std::string& unit) {
-  return {{"value", json_number(quantity.value)},
-          {"standard_deviation", quantity.uncertainty},
-          {"unit", unit},
-          {"source", quantity.source},
-          {"assumed", quantity.assumed}};
-}
-
-json terms_json(const std::vector<model::Term>& terms) {
-  json factors = json::object();
-  for (const model::Term& term : terms) {
-    factors[term.of] = term.factor;
-  }
-  return factors;
-}
-
-json effects_json(const Model& model) {
-  json list = json::array();
-  for (const model::EffectUse& use : model.effects) {
-    json values = json::object();
-    for (std::size_t p = 0; p < use.values.size(); ++p) {
-      values[use.law->declaration().parameters[p].name] = to_json(use.values[p], unit_of(model, use, p));
-    }
-    list.push_back({{"effect", use.law->declaration().name}, {"at", use.at}, {"values", values}});
-  }
-  return list;
-}
-
-const std::vector<effects::Place>& all_places() {
-  static const std::vector<effects::Place> kPlaces{
-      effects::Place::coordinate, effects::Place::motor, effects::Place::ratio, effects::Place::body,
-      effects::Place::sensor,     effects::Place::world, effects::Place::foot};
-  return kPlaces;
-}
-
-json bodies_json(const Model& model) {
-  json list = json::array();
-  for (const model::Body& body : model.skeleton.bodies) {
-    list.push_back({{"name", body.name}, {"mass", body.mass}, {"standard_deviation", body.mass_uncertainty}});
-  }
-  return list;
-}
-
-json coordinates_json(const Model& model) {
-  json list = json::array();
-  for (const model::Coordinate& coordinate : model.coordinates) {
-    list.push_back({{"name", coordinate.name},
-                    {"unit", model::position_unit(coordinate.angular)},
-                    {"of", terms_json(coordinate.terms)}});
-  }
-  return list;
-}
-
-json motors_json(const Model& model) {
-  json list = json::array();
-  for (const model::Motor& motor : model.motors) {
-    const std::string force = model::force_unit(motor.angular);
-    const bool limited = motor.torque_limit.value > 0.0;
-    list.push_back(
-        {{"name", motor.name},
-         {"command_unit", motor.command_unit},
-         {"rotor_inertia", to_json(motor.rotor_inertia, model::inertia_unit(motor.angular))},
-         {"torque_constant", to_json(motor.torque_constant, force + "/(" + motor.command_unit + ")")},
-         {"torque_limit", limited ? to_json(motor.torque_limit, force) : json()}});
-  }
-  return list;
-}
-
-json pulleys_json(const Model& model) {
-  json list = json::array();
-  for (const model::Pulley& pulley : model.pulleys) {
-    list.push_back({{"name", pulley.name}, {"inertia", to_json(pulley.inertia, model::inertia_unit(true))}});
-  }
-  return list;
-}
-
-json ratios_json(const Model& model) {
-  json list = json::array();
-  for (const model::Ratio& ratio : model.ratios) {
-    list.push_back({{"name", ratio.name}, {"of", ratio.motor}, {"to", terms_json(ratio.to)}});
-  }
-  return list;
-}
-
-json inertias_json(const Model& model) {
-  json list = json::array();
-  for (const model::Inertia& inertia : model.inertias) {
-    const std::string unit = model::inertia_unit(model::is_angular(model, inertia.at));
-    list.push_back({{"name", inertia.name}, {"at", inertia.at}, {"value", to_json(inertia.value, unit)}});
-  }
-  return list;
-}
-
-json sensors_json(const Model& model) {
-  json list = json::array();
-  for (const model::Sensor& sensor : model.sensors) {
-    list.push_back({{"name", sensor.name},
-                    {"measures", sensor.measures},
-                    {"unit", model::position_unit(sensor_is_angular(model, sensor.name))},
-                    {"resolution", sensor.resolution},
-                    {"noise", sensor.noise},
-                    {"floor", sensor.floor()}});
-  }
-  return list;
 }
 
 void print_drivetrain(const Model& model) {
@@ -189,7 +78,7 @@ void print_effects(const Model& model) {
       rows.push_back({use.label(), use.law->declaration().parameters[p].name,
                       fmt::format("{:g}", quantity.value),
                       quantity.uncertainty > 0.0 ? fmt::format("{:.2g}", quantity.uncertainty) : "-",
-                      unit_of(model, use, p), origin_text(quantity)});
+                      validation::unit_of(model, use, p), origin_text(quantity)});
     }
   }
   fmt::print("\nEffects:\n\n");
@@ -209,6 +98,10 @@ void print_sensors(const Model& model) {
                     fmt::format("{:.3g} {}", sensor.floor(), unit)});
   }
   fmt::print("\nSensors:\n\n");
+  for (const model::ContactSwitch& one : model.switches) {
+    rows.push_back({one.name, "contact of " + model.feet[static_cast<std::size_t>(one.foot)].name,
+                    "open/closed", "", "sample period/sqrt(12)"});
+  }
   print_table({"name", "measures", "resolution", "noise", "floor"}, rows);
 }
 
@@ -225,26 +118,10 @@ Freedom freedom_of(const model::Model& model, const std::vector<validation::Lock
 }
 
 json to_json(const Model& model, const Freedom& freedom) {
-  json places = json::object();
-  for (const effects::Place place : all_places()) {
-    places[effects::to_string(place)] = model.places(place);
-  }
-  return {{"kind", "model"},
-          {"file", model.file},
-          {"robot", model.robot},
-          {"lineage", model.lineage},
-          {"skeleton", model.skeleton.file},
-          {"independent_coordinates", freedom.coordinates},
-          {"states", freedom.states},
-          {"bodies", bodies_json(model)},
-          {"coordinates", coordinates_json(model)},
-          {"motors", motors_json(model)},
-          {"pulleys", pulleys_json(model)},
-          {"ratios", ratios_json(model)},
-          {"inertias", inertias_json(model)},
-          {"effects", effects_json(model)},
-          {"sensors", sensors_json(model)},
-          {"places", places}};
+  json description = validation::model_json(model);
+  description["independent_coordinates"] = freedom.coordinates;
+  description["states"] = freedom.states;
+  return description;
 }
 
 void print(const Model& model, const Freedom& freedom) {
@@ -263,7 +140,7 @@ void print(const Model& model, const Freedom& freedom) {
   print_sensors(model);
   fmt::print("\nPlaces for effects:\n\n");
   Rows rows;
-  for (const effects::Place place : all_places()) {
+  for (const effects::Place place : validation::all_places()) {
     std::string names;
     for (const std::string& name : model.places(place)) {
       names += (names.empty() ? "" : ", ") + name;

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/model/kinds.h"
@@ -47,6 +48,13 @@ json to_json(const Trial& trial, const Model& model, const Freedom& freedom) {
                                {"rms", rms(channel.values)},
                                {"floor", model.find_sensor(channel.sensor)->floor()}});
   }
+  out["contact_events"] = json::array();
+  for (const validation::ContactEvent& event : trial.contact_events) {
+    out["contact_events"].push_back(
+        {{"time", event.time},
+         {"contact_switch", trial.switches[static_cast<std::size_t>(event.record)].name},
+         {"kind", event.touchdown ? "touchdown" : "lift-off"}});
+  }
   for (const validation::Command& command : trial.commands) {
     out["commands"].push_back({{"motor", command.motor},
                                {"column", command.column},
@@ -76,6 +84,13 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
     rows.push_back({"sensor " + channel.sensor, channel.column, channel.unit,
                     fmt::format("{:.4g} {}", rms(channel.values), unit),
                     fmt::format("{:.3g} {}", model.find_sensor(channel.sensor)->floor(), unit)});
+  }
+  for (std::size_t r = 0; r < trial.switches.size(); ++r) {
+    const auto events = std::count_if(
+        trial.contact_events.begin(), trial.contact_events.end(),
+        [&](const validation::ContactEvent& event) { return event.record == static_cast<int>(r); });
+    rows.push_back({"contact switch " + trial.switches[r].name, trial.switches[r].column, "1",
+                    fmt::format("{} events", events), fmt::format("{:.3g} s", timing_floor(trial))});
   }
   for (const validation::Command& command : trial.commands) {
     rows.push_back(

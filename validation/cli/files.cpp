@@ -1,6 +1,5 @@
 #include "validation/cli/files.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -54,13 +53,6 @@ void check_not_an_input(const std::string& file, const std::vector<std::string>&
       throw InputError({file, 0, ""}, "one of the files that are read", "another file to write to");
     }
   }
-}
-
-nlohmann::json json_number(double value) {
-  if (std::isinf(value)) {
-    return value > 0.0 ? "inf" : "-inf";
-  }
-  return value;
 }
 
 }  // namespace plumbline::cli

@@ -1,11 +1,11 @@
 // Files that a command is going to write, checked before any work is done.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "simulator/trace/table.h"
+#include "validation/report/json_number.h"
 
 namespace plumbline::cli {
 
@@ -19,7 +19,6 @@ void write_trace(const Table& trace, const std::string& file);
 /// Throws InputError when `file` is one of the `inputs`.
 void check_not_an_input(const std::string& file, const std::vector<std::string>& inputs);
 
-/// The number; the texts "inf" and "-inf" where it is infinite, since JSON has no such number.
-nlohmann::json json_number(double value);
+using validation::json_number;
 
 }  // namespace plumbline::cli

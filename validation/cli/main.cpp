@@ -25,6 +25,13 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+/// The command line, the program by its own name.
+std::vector<std::string> command_words(int argc, char** argv) {
+  std::vector<std::string> words{"plumbline"};
+  words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
+  return words;
+}
+
 /// CLI11 says only that a command is required when the one given is unknown.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') {
@@ -57,6 +64,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_diagnose(app, outcome);
     plumbline::cli::add_add(app, outcome);
     plumbline::cli::add_ladder(app, outcome);
+    plumbline::cli::add_report(app, command_words(argc, argv));
     plumbline::cli::add_new_trial(app, outcome);
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);

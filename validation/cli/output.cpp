@@ -42,10 +42,6 @@ void write_json(const nlohmann::json& json, const std::string& file) {
   }
 }
 
-std::string to_string(validation::Role role) {
-  return role == validation::Role::train ? "train" : "held-out";
-}
-
 ProgressLine::ProgressLine()
     : terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()), part_start_(start_) {}
 

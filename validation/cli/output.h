@@ -16,8 +16,6 @@ void print_table(const std::vector<std::string>& head, const std::vector<std::ve
 /// Writes to `file` unless it is empty.
 void write_json(const nlohmann::json& json, const std::string& file);
 
-std::string to_string(validation::Role role);
-
 /// One line on a terminal's standard error, with time left; nothing in a pipe.
 class ProgressLine {
  public:

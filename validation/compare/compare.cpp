@@ -11,12 +11,15 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
   std::vector<ChannelError> errors;
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     const Trial& trial = data.trials[t];
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trial.measured.size()));
+    Eigen::VectorXd sum =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trial.measured.size() + trial.switches.size()));
     double samples = 0.0;
+    std::vector<int> events;
     for (std::size_t w = 0; w < data.windows.size(); ++w) {
       if (data.windows[w].trial == static_cast<int>(t)) {
         sum += estimate.square[w];
         samples += static_cast<double>(data.windows[w].count);
+        events.insert(events.end(), data.windows[w].events.begin(), data.windows[w].events.end());
       }
     }
     for (std::size_t c = 0; c < trial.measured.size(); ++c) {
@@ -31,6 +34,16 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
       error.rms = error.ratio * error.floor;
       errors.push_back(error);
     }
+    for (std::size_t r = 0; r < trial.switches.size(); ++r) {
+      const auto count = std::count_if(events.begin(), events.end(), [&](int e) {
+        return trial.contact_events[static_cast<std::size_t>(e)].record == static_cast<int>(r);
+      });
+      const double square = sum[static_cast<Eigen::Index>(trial.measured.size() + r)];
+      ChannelError error{trial.name, trial.switches[r].name, "s", trial.role, 0.0, timing_floor(trial), 0.0};
+      error.ratio = std::sqrt(square / std::max(static_cast<double>(count), 1.0));
+      error.rms = error.ratio * error.floor;
+      errors.push_back(error);
+    }
   }
   return errors;
 }
@@ -40,7 +53,8 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
   for (std::size_t w = 0; w < data.windows.size(); ++w) {
     const Window& window = data.windows[w];
     const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
-    const Eigen::VectorXd square = estimate.square[w] / static_cast<double>(window.count);
+    const auto channels = static_cast<Eigen::Index>(trial.measured.size());
+    const Eigen::VectorXd square = estimate.square[w].head(channels) / static_cast<double>(window.count);
     Eigen::Index worst = 0;
     square.maxCoeff(&worst);
     errors.push_back({trial.name, trial.time[window.first], trial.time[window.first + window.count - 1],

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/ground_change.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -150,6 +152,36 @@ bool is_measured(const std::vector<Trial>& trials, const std::string& sensor) {
   });
 }
 
+/// The normal law of a foot, as the model has it; null where it has none.
+const model::EffectUse* normal_law_at(const model::Model& model, const std::string& foot) {
+  const auto found = std::find_if(model.effects.begin(), model.effects.end(), [&](const auto& use) {
+    return use.at == foot && dynamic_cast<const contact::NormalLaw*>(use.law.get()) != nullptr;
+  });
+  return found == model.effects.end() ? nullptr : &*found;
+}
+
+/// The ground itself is never what is missing: only how it differs from what the model says of it.
+bool changes_ground(const model::Model& model, const effects::Law& law, const std::string& foot) {
+  return dynamic_cast<const contact::GroundChangeLaw*>(&law) != nullptr &&
+         normal_law_at(model, foot) != nullptr;
+}
+
+/// Depth at which the foot's ground carries the robot, to a factor of two.
+double resting_depth(const model::Model& model, const std::string& foot) {
+  const model::EffectUse& use = *normal_law_at(model, foot);
+  const auto& law = dynamic_cast<const contact::NormalLaw&>(*use.law);
+  const effects::Values p = use.numbers();
+  double weight = 0.0;
+  for (const model::Body& body : model.skeleton.bodies) {
+    weight += body.mass * model.skeleton.gravity.norm();
+  }
+  double depth = 1e-9;
+  while (depth < 1.0 && law.force(depth, 0.0, p.data()) < weight) {
+    depth *= 2.0;
+  }
+  return depth;
+}
+
 bool is_fixed_body(const model::Skeleton& skeleton, const std::string& name) {
   for (const model::Joint& joint : skeleton.joints) {
     if (skeleton.bodies[static_cast<std::size_t>(joint.child)].name == name) {
@@ -169,9 +201,6 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
   PlaceMotions motions(pool, parameters, estimate);
   std::vector<Candidate> candidates;
   for (const auto& law : catalogue.laws()) {
-    if (law->sits_at(Place::foot)) {
-      continue;  // windows are not cut at contact yet
-    }
     Place place = Place::coordinate;
     for (const auto& [at, same] : joined_places(plant, *law, &place)) {
       place = model.resolve(*law, at);
@@ -179,6 +208,9 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
         continue;
       }
       if (place == Place::body && is_fixed_body(model.skeleton, at)) {
+        continue;
+      }
+      if (place == Place::foot && !changes_ground(model, *law, at)) {
         continue;
       }
       Candidate candidate{law, place, at, same, {}};
@@ -190,6 +222,8 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       } else if (place == Place::body) {
         candidate.scales.inertia = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(at))].mass;
         candidate.scales.position = 0.1;
+      } else if (place == Place::foot) {
+        candidate.scales.position = resting_depth(model, at);
       }
       candidates.push_back(std::move(candidate));
     }
@@ -226,27 +260,6 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
                     parameter.lower,
                     parameter.upper,
                     typical[p]});
-  }
-  return free;
-}
-
-std::vector<FreeParameter> stated_parameters(const model::Model& model, double width) {
-  std::vector<FreeParameter> free;
-  for (std::size_t e = 0; e < model.effects.size(); ++e) {
-    const model::EffectUse& use = model.effects[e];
-    const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
-    for (FreeParameter& parameter : free_parameters_of(use, static_cast<int>(e), {}, angular)) {
-      const model::Quantity& quantity = use.values[static_cast<std::size_t>(parameter.id.parameter)];
-      if (quantity.uncertainty <= 0.0) {
-        continue;
-      }
-      parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
-      parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
-      parameter.mean = quantity.value;
-      parameter.deviation = quantity.uncertainty;
-      parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
-      free.push_back(parameter);
-    }
   }
   return free;
 }

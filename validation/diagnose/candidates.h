@@ -32,10 +32,6 @@ model::EffectUse make_use(const Candidate& candidate, const effects::Values& val
 std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
                                               const effects::Scales& scales, bool angular);
 
-/// The model's own free parameters: those of its effects that state an uncertainty, within `width` standard
-/// deviations of the stated value and the law's bounds.
-std::vector<FreeParameter> stated_parameters(const model::Model& model, double width);
-
 Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters);
 
 /// The model with the parameters set.

@@ -33,13 +33,18 @@ void continue_refit(Refit& refit, const Data& data, int iterations) {
 }
 
 /// Squared scores from per-window squares weighted by how often each window was drawn.
-double drawn_square(const Data& data, const std::vector<Eigen::VectorXd>& square,
+Scores drawn_scores(const Data& data, const std::vector<Eigen::VectorXd>& square,
                     const std::vector<int>& times) {
   std::vector<Eigen::VectorXd> weighted = square;
   for (std::size_t w = 0; w < square.size(); ++w) {
     weighted[w] = square[w] * static_cast<double>(times[w]);
   }
-  const Scores scores = score(data, weighted);
+  return score(data, weighted);
+}
+
+double drawn_square(const Data& data, const std::vector<Eigen::VectorXd>& square,
+                    const std::vector<int>& times) {
+  const Scores scores = drawn_scores(data, square, times);
   return scores.train * scores.train + scores.held_out * scores.held_out;
 }
 
@@ -266,6 +271,19 @@ double share_better(const Refit& other, const Refit& best, const Data& data, con
     }
   }
   return share;
+}
+
+std::pair<double, double> resampled_error(const Refit& refit, Role role, const Data& data,
+                                          const DiagnoseOptions& options) {
+  std::mt19937_64 random(options.seed);
+  std::vector<double> errors;
+  for (int r = 0; r < options.resamples; ++r) {
+    const Scores scores = drawn_scores(data, refit.estimate.square, draw(data, random));
+    errors.push_back(role == Role::train ? scores.train : scores.held_out);
+  }
+  std::sort(errors.begin(), errors.end());
+  const auto tail = errors.size() / 20;
+  return {errors[tail], errors[errors.size() - 1 - tail]};
 }
 
 std::string objection(const Stage& stage, const Candidate& candidate, const Refit& refit, double share,

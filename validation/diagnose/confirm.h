@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "validation/diagnose/diagnose.h"
@@ -29,6 +30,10 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
 /// stage itself stands for "none" and wins unless a refit is material. Last entry: the share of "none".
 std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
                                     const DiagnoseOptions& options);
+
+/// Between which values 90 % of the resamples have the error of one role, in units of the floor.
+std::pair<double, double> resampled_error(const Refit& refit, Role role, const Data& data,
+                                          const DiagnoseOptions& options);
 
 /// Share of resamples in which `other` predicts better than `best`.
 double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options);

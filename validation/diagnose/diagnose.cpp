@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/confirm.h"
+#include "validation/diagnose/own_parameters.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -110,16 +112,17 @@ class Diagnoser {
             const Progress& progress)
       : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
 
+  /// First with the model's own numbers exactly as stated. If that gives no answer, or the data speak for
+  /// other numbers, anew with the numbers free within what is stated of them.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
-    const Scores base = diagnosis.final_stage.estimate.scores;
-    for (int round = 0; round < options_.most_effects; ++round) {
-      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
-        break;
-      }
+    const Stage open = with_open_numbers(diagnosis.final_stage);
+    take_steps(open.parameters.empty() ? options_.most_effects : options_.most_as_stated, diagnosis);
+    conclude(diagnosis);
+    if (!open.parameters.empty() && !speaks_for_stated(diagnosis)) {
+      fit_own(open, diagnosis);
+      take_steps(options_.most_effects, diagnosis);
     }
-    drop_superfluous(diagnosis);
-    conclude(base, diagnosis);
   }
 
   /// The ladder on all windows, where candidates were tried on a part of them.
@@ -143,14 +146,30 @@ class Diagnoser {
     }
   }
 
-  /// The rung before anything was added.
-  static const Rung& first_rung(const Diagnosis& diagnosis) {
-    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
-    return diagnosis.ladder[fitted ? 1 : 0];
+  /// An early guess that the later ones make superfluous is dropped again.
+  void drop_superfluous(const Data& all, Diagnosis& diagnosis) const {
+    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
+      Stage& stage = diagnosis.final_stage;
+      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
+      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
+      Stage without = without_effect(stage, effect);
+      PredictorPool pool(without.model, all);
+      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
+                                      {}, {10, 1e-3});
+      const double rise = judged(without.estimate.scores, all) / judged(stage.estimate.scores, all) - 1.0;
+      if (rise < options_.material) {
+        diagnosis.ladder.push_back(
+            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
+        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
+        stage = without;
+      } else {
+        ++i;
+      }
+    }
   }
 
-  void conclude(const Scores& base, Diagnosis& diagnosis) const {
-    const double before = judged(base, data_);
+  void conclude(Diagnosis& diagnosis) const {
+    const double before = judged(first_rung(diagnosis).stage.estimate.scores, data_);
     const double after = judged(diagnosis.final_stage.estimate.scores, data_);
     const double excess = before * before - 1.0;
     diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
@@ -166,6 +185,12 @@ class Diagnoser {
   }
 
  private:
+  /// The rung before anything was added.
+  static const Rung& first_rung(const Diagnosis& diagnosis) {
+    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
+    return diagnosis.ladder[fitted ? 1 : 0];
+  }
+
   void start(const model::Model& model, Diagnosis& diagnosis) {
     progress_("the model as given", 0.0);
     Stage& stage = diagnosis.final_stage;
@@ -174,14 +199,45 @@ class Diagnoser {
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}});
     stage.estimate = given;
-    // The stage changes as a whole: an interruption must not leave parameters without their values.
-    const std::vector<FreeParameter> own = stated_parameters(model, options_.parameter_width);
-    if (!own.empty()) {
-      progress_("the model's own parameters", 0.5);
-      stage.estimate = gauss_newton(pool, own, values_of(model, own), given.x0, {10, 1e-4});
-      stage.parameters = own;
-      diagnosis.ladder.push_back({"own parameters fitted", stage});
+  }
+
+  void take_steps(int most, Diagnosis& diagnosis) {
+    for (int round = 0; round < most; ++round) {
+      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
+        break;
+      }
     }
+  }
+
+  /// The stage with the numbers that its model states with an uncertainty as free parameters, not yet fitted.
+  Stage with_open_numbers(const Stage& given) const {
+    Stage open{with_stated_errors(given.model), {}, given.estimate};
+    PredictorPool pool(open.model, data_);
+    open.parameters = noticeable_parameters(pool, stated_parameters(open.model, options_.parameter_width),
+                                            given.estimate.x0);
+    return open;
+  }
+
+  /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
+  bool speaks_for_stated(const Diagnosis& diagnosis) const {
+    const Stage& stage = diagnosis.final_stage;
+    return diagnosis.verdict == Verdict::nothing_missing ||
+           (diagnosis.verdict == Verdict::missing &&
+            evidence_for_stated(stage, data_, options_.parameter_width) > std::log(options_.evidence));
+  }
+
+  /// Starts anew from the model as given, with its own numbers free.
+  void fit_own(const Stage& open, Diagnosis& diagnosis) const {
+    const Rung given = diagnosis.ladder.front();
+    progress_("the model's own parameters", 0.5);
+    PredictorPool pool(open.model, data_);
+    const Stage fitted{open.model, open.parameters,
+                       gauss_newton(pool, open.parameters, values_of(open.model, open.parameters),
+                                    open.estimate.x0, {10, 1e-4})};
+    // As a whole: an interruption must not leave parameters without their values.
+    diagnosis = Diagnosis();
+    diagnosis.ladder = {given, {"own parameters fitted", fitted}};
+    diagnosis.final_stage = fitted;
   }
 
   bool step(Diagnosis& diagnosis, int round) {
@@ -224,6 +280,10 @@ class Diagnoser {
       const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
       rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
                                  is_near ? share : shares[i], data_, options_);
+      const Role judged_role = data_.has(Role::held_out) ? Role::held_out : Role::train;
+      rows[i].selected_share = shares[i];
+      std::tie(rows[i].judged_low, rows[i].judged_high) =
+          resampled_error(refits[i], judged_role, data_, options_);
     }
     std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
       return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);
@@ -276,28 +336,6 @@ class Diagnoser {
     diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
   }
 
-  /// An early guess that the later ones make superfluous is dropped again.
-  void drop_superfluous(Diagnosis& diagnosis) const {
-    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
-      Stage& stage = diagnosis.final_stage;
-      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
-      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
-      Stage without = without_effect(stage, effect);
-      PredictorPool pool(without.model, data_);
-      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
-                                      {}, {10, 1e-3});
-      const double rise = judged(without.estimate.scores, data_) / judged(stage.estimate.scores, data_) - 1.0;
-      if (rise < options_.material) {
-        diagnosis.ladder.push_back(
-            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
-        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
-        stage = without;
-      } else {
-        ++i;
-      }
-    }
-  }
-
   static Stage without_effect(const Stage& stage, int effect) {
     Stage without = stage;
     without.model.effects.erase(without.model.effects.begin() + effect);
@@ -344,12 +382,13 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     diagnoser.run(model, diagnosis);
     if (part.windows.size() < data.windows.size()) {
       diagnoser.rescore(data, diagnosis);
-      diagnoser.conclude(Diagnoser::first_rung(diagnosis).stage.estimate.scores, diagnosis);
     }
+    diagnoser.drop_superfluous(data, diagnosis);
+    diagnoser.conclude(diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      diagnoser.conclude(diagnosis.ladder.front().stage.estimate.scores, diagnosis);
+      diagnoser.conclude(diagnosis);
     }
   }
   return diagnosis;

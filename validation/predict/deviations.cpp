@@ -25,7 +25,8 @@ Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const auto w = static_cast<std::size_t>(windows[i]);
     sse += reduced[i].sse;
-    count += static_cast<double>(data.windows[w].count) * static_cast<double>(estimate.square[w].size());
+    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
+    count += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
   }
   H.diagonal() += prior(parameters, units, estimate.theta).H;
   H.diagonal() *= 1.0 + 1e-12;

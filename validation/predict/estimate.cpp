@@ -31,7 +31,7 @@ class WindowCost : public ceres::CostFunction {
       const Window& w = pool_.data().windows[static_cast<std::size_t>(window_)];
       expected_ = predictor.initial_state(w);
       spread_ = predictor.initial_spread(w);
-      rows_ = w.count * predictor.channels();
+      rows_ = predictor.rows(w);
     });
     if (!parameters_.empty() && units_.size() > 0) {
       mutable_parameter_block_sizes()->push_back(static_cast<int>(units_.size()));
@@ -260,10 +260,9 @@ std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<Free
       try {
         r = predictor.residual(data.windows[i], x0[i]);
       } catch (const std::runtime_error&) {
-        r = Eigen::VectorXd::Constant(data.windows[i].count * predictor.channels(), 1e6);
+        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]), 1e6);
       }
-      const Eigen::Map<const Matrix> by_sample(r.data(), data.windows[i].count, predictor.channels());
-      square[i] = by_sample.colwise().squaredNorm().transpose();
+      square[i] = predictor.squares(data.windows[i], r);
     });
   });
   return square;
@@ -316,6 +315,52 @@ Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd&
   return all;
 }
 
+namespace {
+
+/// Events of each contact switch in the trial's windows.
+Eigen::VectorXd event_counts(const Data& data, std::size_t t) {
+  const Trial& trial = data.trials[t];
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trial.switches.size()));
+  for (const Window& window : data.windows) {
+    for (std::size_t e = 0; window.trial == static_cast<int>(t) && e < window.events.size(); ++e) {
+      counts[trial.contact_events[static_cast<std::size_t>(window.events[e])].record] += 1.0;
+    }
+  }
+  return counts;
+}
+
+/// Mean squares of a trial's channels, added up, and how many channels that were. A contact switch has one
+/// residual for each event.
+struct Sum {
+  double of_means = 0.0, channels = 0.0;
+};
+
+Sum sum_of(const Data& data, std::size_t t, const std::vector<Eigen::VectorXd>& square) {
+  Eigen::VectorXd total;
+  double samples = 0.0;
+  for (std::size_t w = 0; w < data.windows.size(); ++w) {
+    if (data.windows[w].trial == static_cast<int>(t)) {
+      total = total.size() == 0 ? square[w] : Eigen::VectorXd(total + square[w]);
+      samples += static_cast<double>(data.windows[w].count);
+    }
+  }
+  if (data.trials[t].switches.empty() || total.size() == 0) {
+    return {total.sum() / std::max(samples, 1.0), static_cast<double>(total.size())};
+  }
+  const Eigen::VectorXd events = event_counts(data, t);
+  const Eigen::Index sampled = total.size() - events.size();
+  Sum sum{total.head(sampled).sum() / std::max(samples, 1.0), static_cast<double>(sampled)};
+  for (Eigen::Index c = 0; c < events.size(); ++c) {
+    if (events[c] > 0.0) {
+      sum.of_means += total[sampled + c] / events[c];
+      sum.channels += 1.0;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
   for (const Role role : {Role::train, Role::held_out}) {
@@ -323,19 +368,11 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t t = 0; t < data.trials.size(); ++t) {
-      if (data.trials[t].role != role) {
-        continue;
+      if (data.trials[t].role == role) {
+        const Sum one = sum_of(data, t, square);
+        sum += one.of_means;
+        count += one.channels;
       }
-      Eigen::VectorXd total;
-      double samples = 0.0;
-      for (std::size_t w = 0; w < data.windows.size(); ++w) {
-        if (data.windows[w].trial == static_cast<int>(t)) {
-          total = total.size() == 0 ? square[w] : Eigen::VectorXd(total + square[w]);
-          samples += static_cast<double>(data.windows[w].count);
-        }
-      }
-      sum += total.sum() / std::max(samples, 1.0);
-      count += static_cast<double>(total.size());
     }
     (role == Role::train ? scores.train : scores.held_out) = count > 0.0 ? std::sqrt(sum / count) : 0.0;
   }

@@ -16,9 +16,10 @@ struct Scores {
 };
 
 struct Estimate {
-  Eigen::VectorXd theta;                ///< parameter values in their own units
-  std::vector<Eigen::VectorXd> x0;      ///< by window
-  std::vector<Eigen::VectorXd> square;  ///< by window: sum of squared residuals of each channel, floor units
+  Eigen::VectorXd theta;            ///< parameter values in their own units
+  std::vector<Eigen::VectorXd> x0;  ///< by window
+  /// By window: sum of squared residuals of each channel, then of each contact switch, floor units.
+  std::vector<Eigen::VectorXd> square;
   Scores scores;
   double cost =
       0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand

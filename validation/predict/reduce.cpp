@@ -4,11 +4,6 @@
 #include "validation/predict/estimate.h"
 
 namespace plumbline::validation {
-namespace {
-
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-}  // namespace
 
 std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
                             const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
@@ -39,10 +34,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       out.raw_sse = lin.r.squaredNorm();
       out.sse = out.raw_sse - Qtr.squaredNorm();
       const Eigen::VectorXd left = lin.r - Q.topRows(rows) * Qtr;
-      out.square = Eigen::Map<const Matrix>(left.data(), window.count, predictor.channels())
-                       .colwise()
-                       .squaredNorm()
-                       .transpose();
+      out.square = predictor.squares(window, left);
       const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
       out.x_shift = R.solve(Qtr);
       out.x_slope = R.solve(QtJ);

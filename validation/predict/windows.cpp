@@ -22,20 +22,6 @@ std::vector<model::Observation> observations_of(const model::Plant& plant, const
   return channels;
 }
 
-/// Samples at which windows may not continue: trial start, events, end.
-std::vector<Eigen::Index> cut_points(const Trial& trial) {
-  std::vector<Eigen::Index> cuts{0};
-  for (const double event : trial.events) {
-    const double* begin = trial.time.data();
-    const auto k = std::lower_bound(begin, begin + trial.samples(), event) - begin;
-    if (k > cuts.back() && k < trial.samples()) {
-      cuts.push_back(k);
-    }
-  }
-  cuts.push_back(trial.samples());
-  return cuts;
-}
-
 }  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
@@ -43,32 +29,6 @@ void FreeParameter::set(model::Plant& plant, double value) const {
   for (const model::ParameterId& other : also) {
     plant.set_value(other, value);
   }
-}
-
-std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
-  std::vector<Window> windows;
-  for (std::size_t t = 0; t < trials.size(); ++t) {
-    const Trial& trial = trials[t];
-    const auto length = static_cast<Eigen::Index>(std::lround(options.window / trial.period));
-    if (trial.samples() < length) {
-      throw InputError(
-          {trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
-          "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
-    }
-    const std::vector<Eigen::Index> cuts = cut_points(trial);
-    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-      const Eigen::Index span = cuts[c + 1] - cuts[c];
-      const Eigen::Index parts = std::max<Eigen::Index>(1, (span + length / 2) / length);
-      if (span < 8) {
-        continue;
-      }
-      for (Eigen::Index p = 0; p < parts; ++p) {
-        const Eigen::Index first = cuts[c] + span * p / parts;
-        windows.push_back({static_cast<int>(t), first, cuts[c] + span * (p + 1) / parts - first});
-      }
-    }
-  }
-  return windows;
 }
 
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
@@ -82,6 +42,13 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     sensor_of_channel_.push_back(s);
     floors_[static_cast<Eigen::Index>(c)] = model.sensors[static_cast<std::size_t>(s)].floor();
   }
+  for (const SwitchRecord& record : trial.switches) {
+    const model::ContactSwitch* known = model.find_switch(record.name);
+    foot_of_switch_.push_back(known == nullptr ? -1 : known->foot);
+  }
+  if (plant_.meets_ground() && options_.method == integrate::Method::explicit_rk) {
+    options_.method = integrate::Method::rosenbrock;  // the ground is stiff
+  }
   command_samples_ = command_samples(model, trial.commands, trial.samples());
   refresh_commands();
 }
@@ -91,11 +58,13 @@ void Predictor::refresh_commands() {
 }
 
 // Value and slope of each channel at the window's first sample, from a quadratic over 25 samples around it
-// (fewer at the trial's ends): long against the quantisation, short against the motion.
+// (fewer at the trial's ends, and at touchdown and lift-off): long against the quantisation, short against
+// the motion.
 Eigen::MatrixXd Predictor::local_polynomial(const Window& window) const {
   const Eigen::Index reach = 12;
-  const Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
-  const Eigen::Index to = std::min(trial_.samples() - 1, window.first + reach);
+  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
+  Eigen::Index to = std::min(trial_.samples() - 1, window.first + reach);
+  stay_in_phase(window.first, from, to);
   const Eigen::Index n = to - from + 1;
   Eigen::MatrixXd V(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -200,6 +169,8 @@ Eigen::VectorXd Predictor::initial_spread(const Window& window) {
   return spread;
 }
 
+// Near the ground a sample is run in pieces: its force changes much within one. Elsewhere a piece is a
+// sample.
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   integrate::PlantOde ode(plant_, false, false);
   integrate::Options options;
@@ -208,20 +179,29 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
   integrate::Integrator integrator(ode, options);
   refresh_commands();
-  states_.resize(plant_.states(), window.count);
+  begin_nodes(window);
   states_.col(0) = x0;
   carry_hidden(window, states_.col(0).data());
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();
   for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
+    const int pieces = pieces_at(nodes_ - 1);
     for (std::size_t b = 0; b < breaks.size(); ++b) {
       commands_->at(window.first + k, b, ode.command());
       integrator.input_changed(false);
       const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      for (int piece = 1; piece < pieces; ++piece) {
+        const double part = breaks[b] + (next - breaks[b]) * piece / pieces;
+        integrator.advance(t0 + (static_cast<double>(k) + part) * trial_.period);
+        add_node(k, part, integrator.state());
+      }
       integrator.advance(t0 + (static_cast<double>(k) + next) * trial_.period);
+      if (pieces > 1 && next < 1.0) {
+        add_node(k, next, integrator.state());
+      }
     }
-    states_.col(k + 1) = integrator.state();
+    add_sample(k + 1, integrator.state());
     if (static_cast<double>(integrator.summary().steps) >
         options_.most_steps * static_cast<double>(window.count)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
@@ -235,7 +215,7 @@ Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd predicted(window.count, channels());
   Eigen::VectorXd y(plant_.sensors());
   for (Eigen::Index k = 0; k < window.count; ++k) {
-    plant_.outputs(states_.col(k).data(), y.data());
+    plant_.outputs(states_.col(node_of(k)).data(), y.data());
     for (int c = 0; c < channels(); ++c) {
       predicted(k, c) = y[sensor_of_channel_[static_cast<std::size_t>(c)]];
     }
@@ -243,179 +223,38 @@ Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& 
   return predicted;
 }
 
-Eigen::VectorXd Predictor::residual_of(const Window& window, const Eigen::MatrixXd& predicted) const {
-  Eigen::VectorXd r(window.count * channels());
+Eigen::Index Predictor::rows(const Window& window) const {
+  return window.count * channels() + static_cast<Eigen::Index>(window.events.size());
+}
+
+Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd& x0) {
+  const Eigen::MatrixXd predicted = predict(window, x0);
+  Eigen::VectorXd r(rows(window));
   for (Eigen::Index k = 0; k < window.count; ++k) {
     for (int c = 0; c < channels(); ++c) {
       const double measured = trial_.measured[static_cast<std::size_t>(c)].values[window.first + k];
       r[k * channels() + c] = (measured - predicted(k, c)) / floors_[c];
     }
   }
+  timing_residuals(window, r);
   return r;
 }
 
-Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd& x0) {
-  return residual_of(window, predict(window, x0));
-}
-
-// Linearisation over sample k of the window: at the middle of its states, under its mean command.
-void Predictor::tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
-                           const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A,
-                           Eigen::MatrixXd& B) {
-  Eigen::VectorXd command(plant_.motors());
-  Eigen::VectorXd slope(plant_.motors());
-  commands_->mean(window.first + k, command.data(), slope.data());
-  const Eigen::VectorXd middle = 0.5 * (states_.col(k) + states_.col(k + 1));
-  const Eigen::VectorXd change = states_.col(k + 1) - states_.col(k);
-  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), trial_.period}, ids, steps,
-                 refresh, A, B);
-}
-
-// Sensitivities S' = A S + B along the predicted motion, over each sample with A and B of its middle:
-//   S <- D^-1 (N S + h B), D, N = I -+ hA/2 + (hA)^2/12,
-// Pade's (2,2) approximation of the exponential (Hairer and Wanner, Solving ODEs II, IV.3): stable for stiff
-// laws, fourth order in hA, one linearisation for each sample. The rigid parts are those of the middle of the
-// samples that share them.
-Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
-                                   const std::vector<FreeParameter>& parameters) {
-  if (options_.differences) {
-    return linearise_by_differences(window, x0, parameters);
+Eigen::VectorXd Predictor::squares(const Window& window, const Eigen::VectorXd& residual) const {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Matrix> by_sample(residual.data(), window.count, channels());
+  const Eigen::VectorXd sampled = by_sample.colwise().squaredNorm().transpose();
+  if (trial_.switches.empty()) {
+    return sampled;
   }
-  for (const FreeParameter& parameter : parameters) {
-    if (!parameter.also.empty()) {
-      return linearise_tied(window, x0, parameters);
-    }
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(channels() + static_cast<Eigen::Index>(trial_.switches.size()));
+  all.head(channels()) = sampled;
+  for (std::size_t e = 0; e < window.events.size(); ++e) {
+    const ContactEvent& event = trial_.contact_events[static_cast<std::size_t>(window.events[e])];
+    const double one = residual[window.count * channels() + static_cast<Eigen::Index>(e)];
+    all[channels() + event.record] += one * one;
   }
-  Linearisation out;
-  const Eigen::MatrixXd predicted = predict(window, x0);
-  out.r = residual_of(window, predicted);
-  const Eigen::Index nx = plant_.states();
-  const auto np = static_cast<Eigen::Index>(parameters.size());
-  std::vector<model::ParameterId> ids;
-  Eigen::VectorXd steps(np);
-  for (Eigen::Index p = 0; p < np; ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    ids.push_back(parameter.id);
-    const double here = plant_.value(parameter.id);
-    const double reference = std::isfinite(here) && here != 0.0 ? std::abs(here) : parameter.typical;
-    steps[p] = 1e-6 * reference;
-    if (here + steps[p] > parameter.upper) {
-      steps[p] = -steps[p];
-    }
-  }
-  out.Jx.resize(out.r.size(), nx);
-  out.Jp.resize(out.r.size(), np);
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
-  S.leftCols(nx).setIdentity();
-  const std::vector<int> carried = plant_.force_states();
-  if (!carried.empty()) {
-    S.rightCols(np) = hidden_slopes(window, ids, steps);
-  }
-  for (const int i : carried) {
-    S(i, i) = 0.0;  // it follows the measured motion, not the window's start
-  }
-  Eigen::MatrixXd A(nx, nx);
-  Eigen::MatrixXd B;
-  Eigen::MatrixXd C;
-  Eigen::MatrixXd D;
-  Eigen::MatrixXd right;
-  Eigen::MatrixXd square;
-  const double h = trial_.period;
-  const Eigen::Index nz = plant_.positions();
-  for (Eigen::Index k = 0; k < window.count; ++k) {
-    plant_.output_jacobian(states_.col(k).data(), C);
-    plant_.output_tangent(states_.col(k).data(), ids, steps, D);
-    for (int c = 0; c < channels(); ++c) {
-      const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
-      const Eigen::Index row = k * channels() + c;
-      out.Jx.row(row).noalias() = C.row(s) * S.topLeftCorner(nz, nx);
-      out.Jx.row(row) /= floors_[c];
-      out.Jp.row(row).noalias() = C.row(s) * S.topRightCorner(nz, np);
-      out.Jp.row(row) += D.row(s);
-      out.Jp.row(row) /= floors_[c];
-    }
-    if (k + 1 == window.count) {
-      break;
-    }
-    if (k % options_.refresh == 0) {
-      tangent_at(window, std::min(k + options_.refresh / 2, window.count - 2), ids, steps, true, A, B);
-    }
-    tangent_at(window, k, ids, steps, false, A, B);
-    A *= 0.5 * h;
-    square.noalias() = A * A / 3.0;
-    right.noalias() = (A + square) * S;
-    right += S;
-    right.rightCols(np) += h * B;
-    A = square - A;
-    A.diagonal().array() += 1.0;
-    S = A.partialPivLu().solve(right);
-  }
-  return out;
-}
-
-// Each of the tied parameters by itself; their columns add up.
-Linearisation Predictor::linearise_tied(const Window& window, const Eigen::VectorXd& x0,
-                                        const std::vector<FreeParameter>& parameters) {
-  std::vector<FreeParameter> apart;
-  std::vector<Eigen::Index> owner;
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    FreeParameter one = parameters[p];
-    std::vector<model::ParameterId> ids{one.id};
-    ids.insert(ids.end(), one.also.begin(), one.also.end());
-    one.also.clear();
-    for (const model::ParameterId& id : ids) {
-      one.id = id;
-      apart.push_back(one);
-      owner.push_back(static_cast<Eigen::Index>(p));
-    }
-  }
-  Linearisation out = linearise(window, x0, apart);
-  Eigen::MatrixXd together =
-      Eigen::MatrixXd::Zero(out.Jp.rows(), static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t k = 0; k < owner.size(); ++k) {
-    together.col(owner[k]) += out.Jp.col(static_cast<Eigen::Index>(k));
-  }
-  out.Jp = together;
-  return out;
-}
-
-// Central differences for parameters, whose influence may be small beside the integrator's error; one-sided
-// ones for states. Steps are small against a contact's depth (1 mm) and long against that error.
-Linearisation Predictor::linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
-                                                  const std::vector<FreeParameter>& parameters) {
-  constexpr double kPositionStep = 1e-5;
-  constexpr double kVelocityStep = 1e-3;
-  constexpr double kShareOfParameter = 0.05;
-  Linearisation out;
-  out.r = residual(window, x0);
-  const Eigen::Index nx = plant_.states();
-  const Eigen::Index nz = plant_.positions();
-  out.Jx = Eigen::MatrixXd::Zero(out.r.size(), nx);
-  out.Jp.resize(out.r.size(), static_cast<Eigen::Index>(parameters.size()));
-  const std::vector<int> carried = plant_.force_states();
-  Eigen::VectorXd moved = x0;
-  for (Eigen::Index i = 0; i < nx; ++i) {
-    if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {
-      continue;  // it follows the measured motion, not the window's start
-    }
-    const double step = i >= nz && i < 2 * nz ? kVelocityStep : kPositionStep;
-    moved[i] = x0[i] + step;
-    out.Jx.col(i) = (out.r - residual(window, moved)) / step;
-    moved[i] = x0[i];
-  }
-  for (Eigen::Index p = 0; p < out.Jp.cols(); ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    const double here = plant_.value(parameter.id);
-    const double step = kShareOfParameter * (here != 0.0 ? std::abs(here) : parameter.typical);
-    const double up = std::min(here + step, parameter.upper);
-    const double down = std::max(here - step, parameter.lower);
-    parameter.set(plant_, up);
-    const Eigen::VectorXd above = residual(window, x0);
-    parameter.set(plant_, down);
-    out.Jp.col(p) = (residual(window, x0) - above) / (up - down);
-    parameter.set(plant_, here);
-  }
-  return out;
+  return all;
 }
 
 }  // namespace plumbline::validation

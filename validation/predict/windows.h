@@ -20,7 +20,12 @@ struct Window {
   int trial = 0;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
+  std::vector<int> events{};  ///< of the trial's contact events those inside
 };
+
+/// A window through stance begins this long before touchdown and ends this long after lift-off, s.
+constexpr double kLead = 0.025;
+constexpr double kTail = 0.01;
 
 struct PredictOptions {
   double window = 0.5;  ///< s
@@ -29,16 +34,19 @@ struct PredictOptions {
   /// Integrator steps for each sample, mean over a window; a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
-  /// encoder's count. A stiff ground wants rosenbrock.
+  /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
   integrate::Method method = integrate::Method::explicit_rk;
   /// Derivatives by differences of whole predictions: slower, but right where a window runs through touchdown
   /// and lift-off, and for the parameters of the ground.
   bool differences = false;
-  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
+  int contact_pieces = 4;  ///< of a sample in which a foot is in the ground or meets it
+  int refresh = 8;         ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
-/// half a window joins its neighbour. Throws InputError when a trial has fewer samples than one window.
+/// half a window joins its neighbour. With contact switches it is cut in each flight, kTail after lift-off
+/// and kLead before touchdown, and its windows come in the order stance, flight. Throws InputError when a
+/// trial has fewer samples than one window.
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options);
 
 /// One parameter that may move.
@@ -56,7 +64,8 @@ struct FreeParameter {
   void set(model::Plant& plant, double value) const;
 };
 
-/// The window's residual r = (measured - predicted) / floor, channel by channel within each sample, and
+/// The window's residual r = (measured - predicted) / floor, channel by channel within each sample, behind
+/// them the instants of the window's contact events, and
 /// Jx = d(predicted)/d(x0) / floor, Jp = d(predicted)/d(parameters) / floor.
 struct Linearisation {
   Eigen::VectorXd r;
@@ -91,20 +100,44 @@ class Predictor {
   Eigen::VectorXd residual(const Window& window, const Eigen::VectorXd& x0);
   Linearisation linearise(const Window& window, const Eigen::VectorXd& x0,
                           const std::vector<FreeParameter>& parameters);
-  /// Residual of a window for predicted channels.
-  Eigen::VectorXd residual_of(const Window& window, const Eigen::MatrixXd& predicted) const;
+  /// Residuals of a window: samples x channels, then contact events.
+  Eigen::Index rows(const Window& window) const;
+  /// Sums of squares by channel, then by contact switch.
+  Eigen::VectorXd squares(const Window& window, const Eigen::VectorXd& residual) const;
   /// Rate evaluations so far.
   long evaluations() const { return evaluations_; }
 
  private:
+  /// Where a foot's predicted depth changes its sign.
+  struct Crossing {
+    Eigen::Index node = -1;  // behind which it lies; -1: nowhere in the window
+    double share = 0.0;      // of the piece
+    double time = 0.0;       // s, after the window's first sample
+    double rate = 0.0;       // of the depth, m/s
+  };
+
   void run(const Window& window, const Eigen::VectorXd& x0);
+  void begin_nodes(const Window& window);
+  void add_node(Eigen::Index sample, double part, const Eigen::VectorXd& state);
+  void add_sample(Eigen::Index sample, const Eigen::VectorXd& state);
+  int pieces_at(Eigen::Index node);
+  Eigen::Index node_of(Eigen::Index sample) const;
+  double length_of(Eigen::Index node) const;
+  void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
+  std::vector<Crossing> crossings_of(const Window& window);
+  Crossing nearest_crossing(int foot, bool touchdown, double time);
+  void timing_residuals(const Window& window, Eigen::VectorXd& r);
+  void timing_slopes(const Window& window, const std::vector<Crossing>& crossings, Eigen::Index node,
+                     const Eigen::MatrixXd& before, const Eigen::MatrixXd& behind,
+                     const std::vector<model::ParameterId>& ids, Linearisation& out);
   Linearisation linearise_tied(const Window& window, const Eigen::VectorXd& x0,
                                const std::vector<FreeParameter>& parameters);
   Linearisation linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
                                          const std::vector<FreeParameter>& parameters);
   void refresh_commands();
-  void tangent_at(const Window& window, Eigen::Index k, const std::vector<model::ParameterId>& ids,
-                  const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+  void tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
+                  const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps, bool refresh,
+                  Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
   void measure_motion();
   void carry_hidden(const Window& window, double* x);
@@ -119,7 +152,12 @@ class Predictor {
   model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
-  Eigen::MatrixXd states_;  // states x count of the last run
+  std::vector<int> foot_of_switch_;
+  // Of the last run: states x nodes; a node is a sample or, near the ground, a point between two.
+  Eigen::MatrixXd states_;
+  Eigen::Index nodes_ = 0;
+  std::vector<Eigen::Index> node_of_sample_;  // both empty where every node is a sample
+  std::vector<double> node_times_;            // s, after the window's first sample
   Eigen::MatrixXd motion_;  // positions and velocities x samples, measured; empty until it is needed
   long evaluations_ = 0;
 };

@@ -112,9 +112,6 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   const model::Model model = with_unknowns(linked, known_values(step, knowledge));
   PredictOptions predict;
   predict.window = step.window;
-  if (!model.feet.empty()) {
-    predict.method = integrate::Method::rosenbrock;  // the ground is stiff
-  }
   Data data(trials, predict);
   data.stop = options.stop;
   check_can_move(model, parameters);

@@ -127,10 +127,17 @@ Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions
 
 Replay replay(const model::Model& model, const Experiment& experiment, const ReplayOptions& options) {
   model::Plant plant(model, locks_of(model, experiment));
-  return run(plant,
-             {start_state(plant, experiment),
-              command_samples(model, experiment.commands, experiment.time.size()), 0.0, experiment.period},
-             nullptr, options);
+  const Beginning start{start_state(plant, experiment),
+                        command_samples(model, experiment.commands, experiment.time.size()), 0.0,
+                        experiment.period};
+  if (experiment.controllers.empty()) {
+    return run(plant, start, nullptr, options);
+  }
+  Trial controlled;
+  controlled.file = experiment.file;
+  controlled.controllers = experiment.controllers;
+  TrialControllers loops(plant, controlled, start.x0);
+  return run(plant, start, &loops, options);
 }
 
 }  // namespace plumbline::validation

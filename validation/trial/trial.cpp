@@ -16,9 +16,23 @@ std::string folder_name(const std::string& trial_file) {
   return fs::weakly_canonical(trial_file, none).parent_path().filename().string();
 }
 
-void read_signals(const TrialFile& file, const Table& table, Trial& trial) {
+void check_switch(const Table& table, const ColumnUse& use, const Eigen::VectorXd& values) {
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (values[k] != 0.0 && values[k] != 1.0) {
+      throw InputError({table.file, 0, use.name}, number_text(values[k]) + " in row " + std::to_string(k + 1),
+                       "0 (open) or 1 (closed): it is a contact switch");
+    }
+  }
+}
+
+void read_signals(const TrialFile& file, const model::Model& model, const Table& table, Trial& trial) {
   for (const MeasuredUse& use : file.measured) {
     Signal signal = read_signal(table, use.column);
+    if (model.find_switch(use.sensor) != nullptr) {
+      check_switch(table, use.column, signal.values);
+      trial.switches.push_back({use.sensor, use.column.name, std::move(signal.values)});
+      continue;
+    }
     trial.measured.push_back({use.sensor, use.column.name, signal.unit, std::move(signal.values)});
   }
   for (const CommandUse& use : file.commands) {
@@ -58,7 +72,8 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
   const Table table = read_table(trial.data_file);
   trial.time = read_signal(table, file.time).values;
   trial.period = checked_period(trial.time, table, file.time.name);
-  read_signals(file, table, trial);
+  read_signals(file, model, table, trial);
+  trial.contact_events = contact_events(trial);
   check_events(trial);
   return trial;
 }

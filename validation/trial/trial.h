@@ -11,6 +11,8 @@
 namespace plumbline::validation {
 
 enum class Role { train, held_out };
+/// "train", "held-out"
+std::string to_string(Role role);
 
 /// A channel measured by one of the model's sensors.
 struct Measured {
@@ -18,6 +20,13 @@ struct Measured {
   std::string column;      ///< column in the data file
   std::string unit;        ///< as declared
   Eigen::VectorXd values;  ///< SI
+};
+
+/// A contact switch's record: 1 closed, 0 open.
+struct SwitchRecord {
+  std::string name;  ///< of a contact switch of the model
+  std::string column;
+  Eigen::VectorXd values;
 };
 
 /// A recorded command of one motor, held over each sample.
@@ -44,6 +53,15 @@ struct Controller {
   Eigen::VectorXd disturbance;  ///< added to the command, empty: none
 };
 
+/// An instant at which a contact switch closed (touchdown) or opened (lift-off): half a sample before the
+/// first sample that shows it, uncertain by half a sample either way.
+struct ContactEvent {
+  double time = 0.0;  ///< s
+  Eigen::Index sample = 0;
+  int record = 0;  ///< index in Trial::switches
+  bool touchdown = true;
+};
+
 struct Trial {
   std::string file;  ///< trial.yaml
   std::string name;  ///< folder name
@@ -57,10 +75,19 @@ struct Trial {
   std::vector<Command> commands;
   std::vector<Lock> locks;
   std::vector<Controller> controllers;
-  std::vector<double> events;  ///< times at which windows are cut (contact later)
+  std::vector<double> events;  ///< times at which windows are cut
+  std::vector<SwitchRecord> switches;
+  std::vector<ContactEvent> contact_events;  ///< of `switches`, in the order of time
 
   Eigen::Index samples() const { return time.size(); }
 };
+
+/// Standard deviation of a contact event's time when it may lie anywhere in a sample period: T/sqrt(12).
+double timing_floor(const Trial& trial);
+
+/// Where the trial's switches change. A change back within `shortest` seconds is bouncing of the switch or of
+/// the foot, which a small error of the model may miss, and no event: both changes are left out.
+std::vector<ContactEvent> contact_events(const Trial& trial, double shortest = 0.02);
 
 struct TrialOptions {
   std::string data_folder;  ///< replaces the trial's data folder; empty: as the trial says

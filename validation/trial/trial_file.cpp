@@ -25,10 +25,24 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
+std::vector<std::string> sensor_and_switch_names(const Model& model) {
+  std::vector<std::string> names = names_of(model.sensors);
+  const std::vector<std::string> switches = names_of(model.switches);
+  names.insert(names.end(), switches.begin(), switches.end());
+  return names;
+}
+
 void check_sensor(const YamlNode& node, const std::string& name, const Model& model) {
   if (model.find_sensor(name) == nullptr) {
     node.refuse("sensor " + quote(name),
                 "a sensor of the model" + nearest_names(name, names_of(model.sensors)));
+  }
+}
+
+void check_measured(const YamlNode& node, const std::string& name, const Model& model) {
+  if (model.find_sensor(name) == nullptr) {
+    node.refuse("sensor " + quote(name),
+                "a sensor of the model" + nearest_names(name, sensor_and_switch_names(model)));
   }
 }
 
@@ -59,9 +73,18 @@ std::vector<std::pair<std::string, YamlNode>> at_least_one(const YamlNode& node,
 
 std::vector<MeasuredUse> read_measured(const YamlNode& node, const Model& model) {
   std::vector<MeasuredUse> uses;
+  bool any_position = false;
   for (const auto& [sensor, entry] : at_least_one(node, "sensor")) {
-    check_sensor(entry, sensor, model);
+    if (model.find_switch(sensor) != nullptr) {
+      uses.push_back({sensor, read_column(entry, "1", "contact switch " + sensor)});
+      continue;
+    }
+    check_measured(entry, sensor, model);
+    any_position = true;
     uses.push_back({sensor, read_column(entry, sensor_unit(model, sensor), "sensor " + sensor)});
+  }
+  if (!any_position) {
+    node.refuse("contact switches only", "at least one sensor of a position");
   }
   return uses;
 }
@@ -107,30 +130,12 @@ ControllerUse read_controller(const YamlNode& node, const Model& model) {
   node.allow_keys({"kind", "motor", "sensor", "reference", "position_gain", "velocity_gain", "disturbance",
                    "command_limit", "velocity_over"});
   ControllerUse use;
-  Controller& c = use.controller;
-  c.kind = node.at("kind").text();
-  if (c.kind != "cascade_pd") {
-    node.at("kind").refuse("the kind cascade_pd" + nearest_names(c.kind, {"cascade_pd"}));
-  }
-  c.motor = node.at("motor").text();
-  c.sensor = node.at("sensor").text();
-  const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
-  check_sensor(node.at("sensor"), c.sensor, model);
-  const std::string position = sensor_unit(model, c.sensor);
-
-  c.position_gain = model::read_quantity(node.at("position_gain"), {"1/s", {}, false, {}}).value;
-  c.velocity_gain =
-      model::read_quantity(node.at("velocity_gain"), {command_unit + " s/" + position, {}, false, {}}).value;
-  use.reference = read_column(node.at("reference"), position, "sensor " + c.sensor);
-  const std::string owner = "the command of motor " + c.motor;
+  use.controller = read_controller_law(node, model);
+  const Controller& c = use.controller;
+  use.reference = read_column(node.at("reference"), sensor_unit(model, c.sensor), "sensor " + c.sensor);
   if (const auto disturbance = node.find("disturbance")) {
-    use.disturbance = read_column(*disturbance, command_unit, owner);
-  }
-  if (const auto limit = node.find("command_limit")) {
-    c.command_limit = positive_or_refuse(*limit, read_physical(*limit, command_unit, owner));
-  }
-  if (const auto over = velocity_difference(node)) {
-    c.velocity_over = *over;
+    use.disturbance = read_column(*disturbance, known_motor(node.at("motor"), c.motor, model).command_unit,
+                                  "the command of motor " + c.motor);
   }
   return use;
 }
@@ -245,6 +250,30 @@ const model::Motor& known_motor(const YamlNode& node, const std::string& name, c
     node.refuse("motor " + quote(name), "a motor of the model" + nearest_names(name, names_of(model.motors)));
   }
   return *motor;
+}
+
+Controller read_controller_law(const YamlNode& node, const Model& model) {
+  Controller c;
+  c.kind = node.at("kind").text();
+  if (c.kind != "cascade_pd") {
+    node.at("kind").refuse("the kind cascade_pd" + nearest_names(c.kind, {"cascade_pd"}));
+  }
+  c.motor = node.at("motor").text();
+  c.sensor = node.at("sensor").text();
+  const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
+  check_sensor(node.at("sensor"), c.sensor, model);
+  const std::string position = sensor_unit(model, c.sensor);
+  c.position_gain = model::read_quantity(node.at("position_gain"), {"1/s", {}, false, {}}).value;
+  c.velocity_gain =
+      model::read_quantity(node.at("velocity_gain"), {command_unit + " s/" + position, {}, false, {}}).value;
+  if (const auto limit = node.find("command_limit")) {
+    c.command_limit =
+        positive_or_refuse(*limit, read_physical(*limit, command_unit, "the command of motor " + c.motor));
+  }
+  if (const auto over = velocity_difference(node)) {
+    c.velocity_over = *over;
+  }
+  return c;
 }
 
 TrialFile read_trial_file(const std::string& path, const Model& model) {

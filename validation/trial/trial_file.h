@@ -56,7 +56,6 @@ void check_version(const model::YamlNode& root, const std::string& version);
 
 /// train or held-out.
 Role read_role(const model::YamlNode& node);
-std::string to_string(Role role);
 
 /// The trial.yaml that a path to it or to its folder means.
 std::string trial_yaml(const std::string& path);
@@ -73,6 +72,9 @@ std::string placed_unit(const model::YamlNode& node, const std::string& name, co
 /// The motor of this name; throws InputError with the nearest names.
 const model::Motor& known_motor(const model::YamlNode& node, const std::string& name,
                                 const model::Model& model);
+
+/// A controller's kind, motor, sensor and constants; its recorded signals are left empty.
+Controller read_controller_law(const model::YamlNode& node, const model::Model& model);
 
 TrialFile read_trial_file(const std::string& path, const model::Model& model);
 

@@ -97,6 +97,10 @@ class TrialWriter {
       column(or_else(measured.column, "q_" + measured.sensor),
              or_else(measured.unit, sensor_unit(model_, measured.sensor)), measured.values);
     }
+    for (const SwitchRecord& record : trial_.switches) {
+      out_ << YAML::Key << record.name << YAML::Value;
+      column(or_else(record.column, "contact_" + record.name), "1", record.values);
+    }
     out_ << YAML::EndMap;
   }
 

@@ -80,12 +80,47 @@ std::vector<Command> read_commands(const YamlNode& node, const Model& model, con
   return commands;
 }
 
+std::vector<Controller> read_controllers(const YamlNode& node, const Model& model,
+                                         const Sampling& sampling) {
+  std::vector<Controller> controllers;
+  for (const YamlNode& item : node.items()) {
+    item.allow_keys({"kind", "motor", "sensor", "reference", "position_gain", "velocity_gain",
+                     "command_limit", "velocity_over"});
+    Controller one = read_controller_law(item, model);
+    const auto same = [&](const Controller& other) { return other.motor == one.motor; };
+    if (std::any_of(controllers.begin(), controllers.end(), same)) {
+      item.refuse("a second controller of motor " + one.motor, "one for each motor");
+    }
+    const Excitations shapes = read_excitations(item.at("reference"), sensor_unit(model, one.sensor),
+                                                "sensor " + one.sensor, sampling);
+    one.reference = sampled_sum(shapes, sampling);
+    controllers.push_back(std::move(one));
+  }
+  return controllers;
+}
+
+/// Every motor that is commanded has a command, and every controller adds what is commanded of its motor.
+void join(const Model& model, Experiment& experiment) {
+  for (Controller& controller : experiment.controllers) {
+    const auto of_it = [&](const Command& command) { return command.motor == controller.motor; };
+    const auto found = std::find_if(experiment.commands.begin(), experiment.commands.end(), of_it);
+    if (found != experiment.commands.end()) {
+      controller.disturbance = found->values;
+      continue;
+    }
+    experiment.commands.push_back({controller.motor, "u_" + controller.motor,
+                                   model.find_motor(controller.motor)->command_unit,
+                                   Eigen::VectorXd::Zero(experiment.time.size())});
+  }
+}
+
 }  // namespace
 
 Experiment read_experiment(const std::string& path, const Model& model) {
   const YamlNode root = YamlNode::load(path);
   check_version(root, "experiment/1");
-  root.allow_keys({"plumbline", "title", "role", "duration", "sample_period", "start", "locked", "commands"});
+  root.allow_keys({"plumbline", "title", "role", "duration", "sample_period", "start", "locked", "commands",
+                   "controllers"});
   const Sampling sampling = read_sampling(root);
   Experiment experiment;
   experiment.file = path;
@@ -101,7 +136,13 @@ Experiment read_experiment(const std::string& path, const Model& model) {
   if (const auto locked = root.find("locked")) {
     experiment.locked = read_locked(*locked, model);
   }
-  experiment.commands = read_commands(root.at("commands"), model, sampling);
+  if (const auto controllers = root.find("controllers")) {
+    experiment.controllers = read_controllers(*controllers, model, sampling);
+  }
+  if (experiment.controllers.empty() || root.has("commands")) {
+    experiment.commands = read_commands(root.at("commands"), model, sampling);
+  }
+  join(model, experiment);
   return experiment;
 }
 

@@ -26,6 +26,8 @@ struct Experiment {
   std::vector<Start> start;         ///< coordinates not named start at 0; everything at rest
   std::vector<std::string> locked;  ///< coordinates or motors held where they start
   std::vector<Command> commands;    ///< one for each motor named; column u_MOTOR, unit the motor's
+  /// With their references; what `commands` says of a controlled motor is added to its command.
+  std::vector<Controller> controllers;
 };
 
 /// Reads experiment.yaml and samples its commands. Throws InputError (one line: file, line, key, found,

@@ -8,6 +8,7 @@
 #include "simulator/integrate/run.h"
 #include "simulator/sensing/encoder.h"
 #include "simulator/trace/error.h"
+#include "validation/closed_loop/controllers.h"
 
 namespace plumbline::validation {
 namespace {
@@ -136,18 +137,24 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
   return x;
 }
 
+namespace {
+
+/// Closed and open switches at each sample, 1 and 0.
+std::vector<SwitchRecord> switch_records(model::Plant& plant, const integrate::RunResult& result) {
+  std::vector<SwitchRecord> records;
+  for (const model::ContactSwitch& one : plant.model().switches) {
+    SwitchRecord record{one.name, "", Eigen::VectorXd::Zero(result.states.cols())};
+    for (Eigen::Index k = 0; k < result.states.cols(); ++k) {
+      record.values[k] = plant.foot_depth(one.foot, result.states.col(k).data()).depth > 0.0 ? 1.0 : 0.0;
+    }
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+}  // namespace
+
 Trial twin(const model::Model& model, const Experiment& experiment, const TwinOptions& options) {
-  const std::vector<model::Lock> locks = locks_of(model, experiment);
-  model::Plant plant(model, locks);
-  std::mt19937_64 random(options.seed);
-  integrate::RunOptions run;
-  run.energy = false;
-  run.events = false;
-  run.integrator.set_tolerance(options.relative_tolerance);
-  const integrate::HeldCommands commands(command_samples(model, experiment.commands, experiment.time.size()),
-                                         experiment.period, plant.delays());
-  const integrate::RunResult result = integrate::run(plant, start_state(plant, experiment), commands, 0.0, {},
-                                                     readout_of(model, options.quantise, random), run);
   Trial trial;
   trial.title = experiment.title;
   trial.model_file = model.file;
@@ -155,8 +162,28 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
   trial.time = experiment.time;
   trial.period = experiment.period;
   trial.commands = experiment.commands;
-  for (const model::Lock& lock : locks) {
-    trial.locks.push_back({lock.at, lock.value});
+  trial.controllers = experiment.controllers;
+  trial.locks = locks_of(model, experiment);
+  model::Plant plant(model, trial.locks);
+  std::mt19937_64 random(options.seed);
+  integrate::RunOptions run;
+  run.energy = false;
+  run.events = false;
+  run.integrator.set_tolerance(options.relative_tolerance);
+  const integrate::HeldCommands commands(command_samples(model, experiment.commands, experiment.time.size()),
+                                         experiment.period, plant.delays());
+  const Eigen::VectorXd x0 = start_state(plant, experiment);
+  TrialControllers loops(plant, trial, x0);
+  const integrate::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
+                                                   double* command) { loops.command(k, y, command); };
+  const bool closed = !trial.controllers.empty();
+  const integrate::RunResult result =
+      integrate::run(plant, x0, commands, 0.0, closed ? control : integrate::SampledController(),
+                     readout_of(model, options.quantise, random), run);
+  for (Command& command : trial.commands) {
+    if (closed) {
+      command.values = result.commands.row(model.motor_index(command.motor)).transpose();
+    }
   }
   for (std::size_t s = 0; s < model.sensors.size(); ++s) {
     Measured channel;
@@ -164,6 +191,8 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
     channel.values = result.readings.row(static_cast<Eigen::Index>(s)).transpose();
     trial.measured.push_back(std::move(channel));
   }
+  trial.switches = switch_records(plant, result);
+  trial.contact_events = contact_events(trial);
   return trial;
 }
 

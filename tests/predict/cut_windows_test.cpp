@@ -1,0 +1,68 @@
+// Windows of a hopping trial: through stance from flight to flight, and in flight.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/predict/hopper.h"
+#include "validation/predict/estimate.h"
+
+namespace plumbline::validation {
+namespace {
+
+class HopperWindows : public testing::Test {
+ protected:
+  static bool in_contact(const Trial& trial, Eigen::Index k) { return trial.switches[0].values[k] > 0.0; }
+
+  const model::Model model_ = test::hopper();
+  const Trial trial_ = test::hopper_trial(model_, "bounce");
+  const std::vector<Window> windows_ = cut_windows({trial_}, {});
+};
+
+TEST_F(HopperWindows, CoverTheTrialOnce) {
+  std::vector<int> times(static_cast<std::size_t>(trial_.samples()), 0);
+  for (const Window& window : windows_) {
+    for (Eigen::Index k = window.first; k < window.first + window.count; ++k) {
+      ++times[static_cast<std::size_t>(k)];
+    }
+  }
+  EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
+  EXPECT_LT(std::count(times.begin(), times.end(), 0), 8);
+}
+
+TEST_F(HopperWindows, HoldEveryContactEventInsideAndBeginInTheFlightBeforeIt) {
+  std::vector<int> events;
+  for (const Window& window : windows_) {
+    events.insert(events.end(), window.events.begin(), window.events.end());
+    const bool touches = std::any_of(window.events.begin(), window.events.end(), [&](int e) {
+      return trial_.contact_events[static_cast<std::size_t>(e)].touchdown;
+    });
+    EXPECT_TRUE(!touches || !in_contact(trial_, window.first)) << window.first;
+  }
+  std::sort(events.begin(), events.end());
+  ASSERT_GT(events.size(), 10U);
+  EXPECT_EQ(events.size(), trial_.contact_events.size());
+  EXPECT_EQ(std::unique(events.begin(), events.end()), events.end());
+}
+
+TEST_F(HopperWindows, ComeInTheOrderStanceFlight) {
+  const auto grounded = [&](const Window& window) {
+    return trial_.switches[0].values.segment(window.first, window.count).maxCoeff() > 0.0;
+  };
+  EXPECT_TRUE(std::is_partitioned(windows_.begin(), windows_.end(), grounded));
+  EXPECT_TRUE(grounded(windows_.front()));
+  EXPECT_FALSE(grounded(windows_.back()));
+}
+
+TEST_F(HopperWindows, WithoutASwitchAreCutAsBefore) {
+  Trial plain = trial_;
+  plain.switches.clear();
+  plain.contact_events.clear();
+  const std::vector<Window> windows = cut_windows({plain}, {});
+  ASSERT_EQ(windows.size(), 8U);
+  for (const Window& window : windows) {
+    EXPECT_EQ(window.count, 500);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,53 @@
+// What a diagnosis says of itself in about two sentences.
+#include "validation/report/sentences.h"
+
+#include <gmock/gmock.h>
+
+namespace plumbline::validation {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Diagnosis found(std::vector<std::string> effects, Verdict verdict, double before, double after) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = verdict;
+  diagnosis.ladder.resize(2);
+  diagnosis.ladder[0].stage.estimate.scores.held_out = before;
+  diagnosis.ladder[1].stage.estimate.scores.held_out = after;
+  for (const std::string& effect : effects) {
+    Finding finding;
+    finding.effect = effect;
+    finding.at = "drive";
+    finding.held_out_before = before;
+    finding.held_out_after = after;
+    diagnosis.accepted.push_back(finding);
+  }
+  return diagnosis;
+}
+
+TEST(Summary, NamesOneEffectWithItsNumbers) {
+  const std::string text = summary(found({"coulomb"}, Verdict::missing, 12.5, 1.01));
+  EXPECT_THAT(text, HasSubstr("Missing: coulomb at drive."));
+  EXPECT_THAT(text, HasSubstr("falls from 12.50 to 1.01 times the floor"));
+}
+
+TEST(Summary, NamesSeveralEffects) {
+  const std::string text = summary(found({"coulomb", "viscous", "lugre"}, Verdict::missing, 12.5, 1.01));
+  EXPECT_THAT(text, HasSubstr("Missing: coulomb at drive, viscous at drive and lugre at drive."));
+}
+
+TEST(Summary, APartIsNotTheAnswer) {
+  const std::string text = summary(found({"coulomb"}, Verdict::unexplained, 12.5, 5.0));
+  EXPECT_THAT(text, HasSubstr("Unexplained: the held-out error stays 5.00 times the floor."));
+  EXPECT_THAT(text, HasSubstr("coulomb at drive helps"));
+  EXPECT_THAT(text, Not(HasSubstr("Missing")));
+}
+
+TEST(Summary, NothingMissingAndNothingFinished) {
+  EXPECT_THAT(summary(found({}, Verdict::nothing_missing, 1.0, 0.99)), HasSubstr("Nothing is missing"));
+  EXPECT_EQ(summary(Diagnosis()), "Nothing was finished.");
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,122 @@
+// Where a trial is cut into windows.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "simulator/trace/error.h"
+#include "validation/predict/windows.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// Shortest window, samples.
+constexpr Eigen::Index kShortest = 8;
+
+Eigen::Index sample_at(const Trial& trial, double time) {
+  const double* begin = trial.time.data();
+  return std::lower_bound(begin, begin + trial.samples(), time) - begin;
+}
+
+/// Where windows end in the flight that contact events `up` and `down` bound: a little after lift-off and a
+/// little before touchdown; in the middle of a flight that is too short for a window of its own.
+void cut_flight(const Trial& trial, Eigen::Index up, Eigen::Index down, std::vector<Eigen::Index>& cuts) {
+  const auto tail = static_cast<Eigen::Index>(std::lround(kTail / trial.period));
+  const auto lead = static_cast<Eigen::Index>(std::lround(kLead / trial.period));
+  const Eigen::Index flight = down - up;
+  if (flight >= tail + lead + kShortest) {
+    cuts.push_back(up + tail);
+    cuts.push_back(down - lead);
+  } else if (flight >= 2 * kShortest) {
+    cuts.push_back(up + flight / 2);
+  }
+}
+
+/// Of the trial's contact events. No window begins at an impact: it begins in the flight before, where its
+/// initial state is well known, and ends in the flight behind, so that it holds both instants.
+void cut_at_contact(const Trial& trial, std::vector<Eigen::Index>& cuts) {
+  for (std::size_t r = 0; r < trial.switches.size(); ++r) {
+    Eigen::Index up = 0;
+    for (const ContactEvent& event : trial.contact_events) {
+      if (event.record != static_cast<int>(r)) {
+        continue;
+      }
+      if (event.touchdown) {
+        cut_flight(trial, up, event.sample, cuts);
+      } else {
+        up = event.sample;
+      }
+    }
+    const Eigen::Index last = trial.samples() - 1;
+    if (trial.switches[r].values[last] == 0.0 && up > 0) {
+      cut_flight(trial, up, last, cuts);
+    }
+  }
+}
+
+/// Samples at which windows may not continue: trial start, events, contact, end.
+std::vector<Eigen::Index> cut_points(const Trial& trial) {
+  std::vector<Eigen::Index> cuts{0};
+  for (const double event : trial.events) {
+    const Eigen::Index k = sample_at(trial, event);
+    if (k > cuts.back() && k < trial.samples()) {
+      cuts.push_back(k);
+    }
+  }
+  if (!trial.switches.empty()) {
+    cut_at_contact(trial, cuts);
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  }
+  cuts.push_back(trial.samples());
+  return cuts;
+}
+
+void find_events(const Trial& trial, Window& window) {
+  for (std::size_t e = 0; e < trial.contact_events.size(); ++e) {
+    const Eigen::Index k = trial.contact_events[e].sample;
+    if (k > window.first && k < window.first + window.count) {
+      window.events.push_back(static_cast<int>(e));
+    }
+  }
+}
+
+bool on_the_ground(const Trial& trial, const Window& window) {
+  return std::any_of(trial.switches.begin(), trial.switches.end(), [&](const SwitchRecord& record) {
+    return record.values.segment(window.first, window.count).maxCoeff() > 0.0;
+  });
+}
+
+}  // namespace
+
+std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
+  std::vector<Window> windows;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const Trial& trial = trials[t];
+    const auto length = static_cast<Eigen::Index>(std::lround(options.window / trial.period));
+    if (trial.samples() < length) {
+      throw InputError(
+          {trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
+          "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
+    }
+    const auto begin = static_cast<std::ptrdiff_t>(windows.size());
+    const std::vector<Eigen::Index> cuts = cut_points(trial);
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+      const Eigen::Index span = cuts[c + 1] - cuts[c];
+      const Eigen::Index parts = std::max<Eigen::Index>(1, (span + length / 2) / length);
+      if (span < kShortest) {
+        continue;
+      }
+      for (Eigen::Index p = 0; p < parts; ++p) {
+        const Eigen::Index first = cuts[c] + span * p / parts;
+        windows.push_back({static_cast<int>(t), first, cuts[c] + span * (p + 1) / parts - first, {}});
+        find_events(trial, windows.back());
+      }
+    }
+    // Stance first, then flight: whoever takes every second window then takes some of both.
+    std::stable_partition(windows.begin() + begin, windows.end(),
+                          [&](const Window& window) { return on_the_ground(trial, window); });
+  }
+  return windows;
+}
+
+}  // namespace plumbline::validation

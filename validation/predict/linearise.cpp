@@ -1,0 +1,180 @@
+// Residuals of a window with all their derivatives.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "validation/predict/windows.h"
+
+namespace plumbline::validation {
+
+// Linearisation over piece n, which is in sample k of the window: at the middle of its states, under the
+// sample's mean command.
+void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
+                           const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
+                           bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+  Eigen::VectorXd command(plant_.motors());
+  Eigen::VectorXd slope(plant_.motors());
+  commands_->mean(window.first + k, command.data(), slope.data());
+  const Eigen::VectorXd middle = 0.5 * (states_.col(n) + states_.col(n + 1));
+  const Eigen::VectorXd change = states_.col(n + 1) - states_.col(n);
+  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period},
+                 ids, steps, refresh, A, B);
+}
+
+// Sensitivities S' = A S + B along the predicted motion, over each piece (a sample, or a part of one near the
+// ground) with A and B of its middle:
+//   S <- D^-1 (N S + h B), D, N = I -+ hA/2 + (hA)^2/12,
+// Pade's (2,2) approximation of the exponential (Hairer and Wanner, Solving ODEs II, IV.3): stable for stiff
+// laws, fourth order in hA, one linearisation for each piece. A compliant ground's force begins and ends at
+// zero, so that nothing jumps at touchdown and lift-off. The rigid parts are those of the middle of the
+// samples that share them.
+Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
+                                   const std::vector<FreeParameter>& parameters) {
+  if (options_.differences) {
+    return linearise_by_differences(window, x0, parameters);
+  }
+  for (const FreeParameter& parameter : parameters) {
+    if (!parameter.also.empty()) {
+      return linearise_tied(window, x0, parameters);
+    }
+  }
+  Linearisation out;
+  out.r = residual(window, x0);
+  const Eigen::Index nx = plant_.states();
+  const auto np = static_cast<Eigen::Index>(parameters.size());
+  std::vector<model::ParameterId> ids;
+  Eigen::VectorXd steps(np);
+  for (Eigen::Index p = 0; p < np; ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    ids.push_back(parameter.id);
+    const double here = plant_.value(parameter.id);
+    const double reference = std::isfinite(here) && here != 0.0 ? std::abs(here) : parameter.typical;
+    steps[p] = 1e-6 * reference;
+    if (here + steps[p] > parameter.upper) {
+      steps[p] = -steps[p];
+    }
+  }
+  out.Jx.setZero(out.r.size(), nx);
+  out.Jp.setZero(out.r.size(), np);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
+  S.leftCols(nx).setIdentity();
+  const std::vector<int> carried = plant_.force_states();
+  if (!carried.empty()) {
+    S.rightCols(np) = hidden_slopes(window, ids, steps);
+  }
+  for (const int i : carried) {
+    S(i, i) = 0.0;  // it follows the measured motion, not the window's start
+  }
+  Eigen::MatrixXd A(nx, nx);
+  Eigen::MatrixXd B;
+  Eigen::MatrixXd C;
+  Eigen::MatrixXd D;
+  Eigen::MatrixXd right;
+  Eigen::MatrixXd square;
+  Eigen::MatrixXd before;
+  const Eigen::Index nz = plant_.positions();
+  const std::vector<Crossing> crossings = crossings_of(window);
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    const Eigen::Index node = node_of(k);
+    plant_.output_jacobian(states_.col(node).data(), C);
+    plant_.output_tangent(states_.col(node).data(), ids, steps, D);
+    for (int c = 0; c < channels(); ++c) {
+      const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
+      const Eigen::Index row = k * channels() + c;
+      out.Jx.row(row).noalias() = C.row(s) * S.topLeftCorner(nz, nx);
+      out.Jx.row(row) /= floors_[c];
+      out.Jp.row(row).noalias() = C.row(s) * S.topRightCorner(nz, np);
+      out.Jp.row(row) += D.row(s);
+      out.Jp.row(row) /= floors_[c];
+    }
+    if (k + 1 == window.count) {
+      break;
+    }
+    if (k % options_.refresh == 0) {
+      const Eigen::Index middle = std::min(k + options_.refresh / 2, window.count - 2);
+      tangent_at(window, middle, node_of(middle), ids, steps, true, A, B);
+    }
+    for (Eigen::Index n = node_of(k); n < node_of(k + 1); ++n) {
+      const double h = length_of(n);
+      tangent_at(window, k, n, ids, steps, false, A, B);
+      A *= 0.5 * h;
+      square.noalias() = A * A / 3.0;
+      right.noalias() = (A + square) * S;
+      right += S;
+      right.rightCols(np) += h * B;
+      A = square - A;
+      A.diagonal().array() += 1.0;
+      before = S;
+      S = A.partialPivLu().solve(right);
+      timing_slopes(window, crossings, n, before, S, ids, out);
+    }
+  }
+  return out;
+}
+
+// Each of the tied parameters by itself; their columns add up.
+Linearisation Predictor::linearise_tied(const Window& window, const Eigen::VectorXd& x0,
+                                        const std::vector<FreeParameter>& parameters) {
+  std::vector<FreeParameter> apart;
+  std::vector<Eigen::Index> owner;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    FreeParameter one = parameters[p];
+    std::vector<model::ParameterId> ids{one.id};
+    ids.insert(ids.end(), one.also.begin(), one.also.end());
+    one.also.clear();
+    for (const model::ParameterId& id : ids) {
+      one.id = id;
+      apart.push_back(one);
+      owner.push_back(static_cast<Eigen::Index>(p));
+    }
+  }
+  Linearisation out = linearise(window, x0, apart);
+  Eigen::MatrixXd together =
+      Eigen::MatrixXd::Zero(out.Jp.rows(), static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t k = 0; k < owner.size(); ++k) {
+    together.col(owner[k]) += out.Jp.col(static_cast<Eigen::Index>(k));
+  }
+  out.Jp = together;
+  return out;
+}
+
+// Central differences for parameters, whose influence may be small beside the integrator's error; one-sided
+// ones for states. Steps are small against a contact's depth (1 mm) and long against that error.
+Linearisation Predictor::linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
+                                                  const std::vector<FreeParameter>& parameters) {
+  constexpr double kPositionStep = 1e-5;
+  constexpr double kVelocityStep = 1e-3;
+  constexpr double kShareOfParameter = 0.05;
+  Linearisation out;
+  out.r = residual(window, x0);
+  const Eigen::Index nx = plant_.states();
+  const Eigen::Index nz = plant_.positions();
+  out.Jx = Eigen::MatrixXd::Zero(out.r.size(), nx);
+  out.Jp.resize(out.r.size(), static_cast<Eigen::Index>(parameters.size()));
+  const std::vector<int> carried = plant_.force_states();
+  Eigen::VectorXd moved = x0;
+  for (Eigen::Index i = 0; i < nx; ++i) {
+    if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {
+      continue;  // it follows the measured motion, not the window's start
+    }
+    const double step = i >= nz && i < 2 * nz ? kVelocityStep : kPositionStep;
+    moved[i] = x0[i] + step;
+    out.Jx.col(i) = (out.r - residual(window, moved)) / step;
+    moved[i] = x0[i];
+  }
+  for (Eigen::Index p = 0; p < out.Jp.cols(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = plant_.value(parameter.id);
+    const double step = kShareOfParameter * (here != 0.0 ? std::abs(here) : parameter.typical);
+    const double up = std::min(here + step, parameter.upper);
+    const double down = std::max(here - step, parameter.lower);
+    parameter.set(plant_, up);
+    const Eigen::VectorXd above = residual(window, x0);
+    parameter.set(plant_, down);
+    out.Jp.col(p) = (residual(window, x0) - above) / (up - down);
+    parameter.set(plant_, here);
+  }
+  return out;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,59 @@
+// The points at which a predicted window is known: its samples, and more of them near the ground.
+#include <algorithm>
+
+#include "validation/predict/windows.h"
+
+namespace plumbline::validation {
+
+void Predictor::begin_nodes(const Window& window) {
+  states_.resize(plant_.states(), window.count);
+  nodes_ = 1;
+  node_of_sample_.clear();
+  node_times_.clear();
+  if (plant_.meets_ground()) {
+    node_of_sample_.assign(1, 0);
+    node_times_.assign(1, 0.0);
+  }
+}
+
+void Predictor::add_node(Eigen::Index sample, double part, const Eigen::VectorXd& state) {
+  if (nodes_ == states_.cols()) {
+    states_.conservativeResize(Eigen::NoChange, 2 * states_.cols());
+  }
+  states_.col(nodes_++) = state;
+  node_times_.push_back((static_cast<double>(sample) + part) * trial_.period);
+}
+
+void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
+  if (!plant_.meets_ground()) {
+    states_.col(nodes_++) = state;
+    return;
+  }
+  node_of_sample_.push_back(nodes_);
+  add_node(sample, 0.0, state);
+}
+
+// A foot that is not in the ground but would be there within two samples may meet it in this one.
+int Predictor::pieces_at(Eigen::Index node) {
+  if (!plant_.meets_ground()) {
+    return 1;
+  }
+  for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
+    const model::FootDepth foot = plant_.foot_depth(static_cast<int>(f), states_.col(node).data());
+    if (foot.depth > 0.0 || foot.depth + 2.0 * trial_.period * foot.rate > 0.0) {
+      return std::max(1, options_.contact_pieces);
+    }
+  }
+  return 1;
+}
+
+Eigen::Index Predictor::node_of(Eigen::Index sample) const {
+  return node_of_sample_.empty() ? sample : node_of_sample_[static_cast<std::size_t>(sample)];
+}
+
+double Predictor::length_of(Eigen::Index node) const {
+  const auto n = static_cast<std::size_t>(node);
+  return node_times_.empty() ? trial_.period : node_times_[n + 1] - node_times_[n];
+}
+
+}  // namespace plumbline::validation

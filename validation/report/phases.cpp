@@ -1,0 +1,96 @@
+#include "validation/report/phases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/sensing/differentiation.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kTurning = 0.1;       // share of the rms velocity below which a channel is turning
+constexpr std::size_t kStretches = 8;  // between events; further ones share a column
+
+/// Adds a group of phases; kind(k) says which of them sample k belongs to.
+template <typename Kind>
+void add_group(const std::string& group, const std::vector<std::string>& names, Eigen::Index samples,
+               const Kind& kind, PhaseTable& table) {
+  const std::size_t first = table.phases.size();
+  for (const std::string& name : names) {
+    table.phases.push_back({group, name});
+    table.members.emplace_back();
+  }
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    table.members[first + kind(k)].push_back(k);
+  }
+}
+
+Eigen::VectorXd velocity_of(const Trial& trial, const Measured& channel) {
+  const auto options = sensing::DifferentiationOptions::acausal();
+  if (channel.values.size() < options.window) {
+    return Eigen::VectorXd::Zero(channel.values.size());
+  }
+  const Eigen::VectorXd velocity = sensing::differentiate(channel.values, trial.period, options);
+  // A channel at rest has the rounding errors of the differences: no motion.
+  const double nothing = 1e-12 * channel.values.cwiseAbs().maxCoeff() / trial.period;
+  return velocity.unaryExpr([nothing](double v) { return std::abs(v) > nothing ? v : 0.0; });
+}
+
+/// Value below which a share of the values lies.
+double quantile(const Eigen::VectorXd& values, double share) {
+  std::vector<double> sorted(values.data(), values.data() + values.size());
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
+  return sorted[static_cast<std::size_t>(at)];
+}
+
+void add_events(const Trial& trial, PhaseTable& table) {
+  if (trial.events.empty()) {
+    return;
+  }
+  std::vector<std::string> names{"start"};
+  for (std::size_t e = 0; e < std::min(trial.events.size(), kStretches - 1); ++e) {
+    names.push_back("after " + std::to_string(e + 1));
+  }
+  if (trial.events.size() >= kStretches) {
+    names.emplace_back("later");
+  }
+  add_group(
+      "between events", names, trial.samples(),
+      [&](Eigen::Index k) {
+        const auto passed = std::upper_bound(trial.events.begin(), trial.events.end(), trial.time[k]);
+        const auto stretch = static_cast<std::size_t>(passed - trial.events.begin());
+        return std::min(stretch, names.size() - 1);
+      },
+      table);
+}
+
+}  // namespace
+
+PhaseTable phases_of(const Trial& trial, const Measured& channel) {
+  PhaseTable table;
+  const Eigen::Index n = trial.samples();
+  add_events(trial, table);
+  add_group(
+      "time", {"early", "middle", "late"}, n,
+      [n](Eigen::Index k) { return static_cast<std::size_t>(3 * k / n); }, table);
+  const Eigen::VectorXd velocity = velocity_of(trial, channel);
+  const Eigen::VectorXd speed = velocity.cwiseAbs();
+  const double slow = quantile(speed, 1.0 / 3.0);
+  const double fast = quantile(speed, 2.0 / 3.0);
+  add_group(
+      "speed", {"slow", "medium", "fast"}, n,
+      [&](Eigen::Index k) -> std::size_t { return speed[k] <= slow   ? 0
+                                                  : speed[k] <= fast ? 1
+                                                                     : 2; }, table);
+  const double turning = kTurning * std::sqrt(velocity.squaredNorm() / static_cast<double>(n));
+  add_group(
+      "direction", {"backward", "turning", "forward"}, n,
+      [&](Eigen::Index k) -> std::size_t {
+        return velocity[k] < -turning ? 0 : velocity[k] > turning ? 2 : 1;
+      },
+      table);
+  return table;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,120 @@
+#include "validation/report/report.h"
+
+#include <filesystem>
+
+#include "simulator/model/robot_file.h"
+#include "validation/compare/rung_name.h"
+#include "validation/report/encode.h"
+#include "validation/report/model_json.h"
+#include "validation/report/parameters_json.h"
+#include "validation/report/result_json.h"
+#include "validation/report/traces.h"
+
+namespace plumbline::validation {
+namespace {
+
+using nlohmann::json;
+
+model::Model fitted(const Stage& stage) {
+  return with_values(stage.model, stage.parameters, stage.estimate.theta);
+}
+
+/// A role without trials has no error.
+json scores_json(const Rung& rung, const Data& data) {
+  return {{"name", rung.name},
+          {"train", data.has(Role::train) ? json(rung.train()) : json()},
+          {"held_out", data.has(Role::held_out) ? json(rung.held_out()) : json()}};
+}
+
+std::vector<Drawn> drawn_models(const ReportContent& content, const Data& data, const Progress& progress) {
+  std::vector<const Rung*> rungs{&content.ladder.front()};
+  if (content.ladder.size() > 1) {
+    rungs.push_back(&content.ladder.back());
+  }
+  std::vector<Drawn> drawn;
+  for (const Rung* rung : rungs) {
+    drawn.push_back({&rung->stage, compare(fitted(rung->stage), data, rung->stage.estimate),
+                     predicted_traces(rung->stage, data, progress)});
+  }
+  return drawn;
+}
+
+/// What the switch calls a drawn model: the last one by all that was added, not by the ladder's last step.
+std::string drawn_name(const ReportContent& content, bool first) {
+  std::string name;
+  if (!first && content.diagnosis.is_object()) {
+    for (const json& finding : content.diagnosis.at("accepted")) {
+      name += (name.empty() ? "+ " : " + ") + finding.at("effect").get<std::string>() + "@" +
+              finding.at("at").get<std::string>();
+    }
+  }
+  return !name.empty() ? name : first ? content.ladder.front().name : content.ladder.back().name;
+}
+
+json forces_json(const Stage& stage, const Data& data) {
+  json list = json::array();
+  for (const UnexplainedForce& force : unexplained_forces(fitted(stage), data)) {
+    list.push_back(to_json(force));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catalogue& catalogue,
+                                 const Data& data, const Progress& progress) {
+  std::vector<Rung> ladder;
+  EffectNames known;
+  for (std::size_t i = 0; i < model.lineage.size(); ++i) {
+    const std::string& file = model.lineage[i];
+    progress("comparing " + std::filesystem::path(file).filename().string(),
+             static_cast<double>(i) / static_cast<double>(model.lineage.size()));
+    const model::Model one = model::read_model(file, catalogue);
+    PredictorPool pool(one, data);
+    ladder.push_back(
+        {rung_name(one, known), {one, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})}});
+    known = effect_names(one);
+  }
+  return ladder;
+}
+
+json report_json(const ReportContent& content, const Data& data, const Progress& progress) {
+  const std::vector<Drawn> drawn = drawn_models(content, data, progress);
+  const Stage& last = *drawn.back().stage;
+  const auto details = detailed_spans(data, drawn, content.drawing);
+  const Eigen::Index points = points_of_curve(data, drawn.size(), content.drawing);
+  json report{{"format", "plumbline report/1"},
+              {"robot", content.given.robot},
+              {"model", content.given.file},
+              {"drawn", json::array()},
+              {"ladder", json::array()},
+              {"trials", json::array()},
+              {"diagnosis", content.diagnosis},
+              {"unexplained", json::array()},
+              {"estimates", nullptr},
+              {"values", model_json(fitted(last))},
+              {"repeat", repeat_json(content.repetition, content.given, data.trials)}};
+  for (const Rung& rung : content.ladder) {
+    report["ladder"].push_back(scores_json(rung, data));
+  }
+  progress("how sure the parameters are", 0.3);
+  report["estimates"] = parameters_json(content.given, last, data);
+  for (std::size_t d = 0; d < drawn.size(); ++d) {
+    progress("the force that is not explained", 0.4 + 0.2 * static_cast<double>(d));
+    report["drawn"].push_back(drawn_name(content, d == 0));
+    report["unexplained"].push_back(forces_json(*drawn[d].stage, data));
+  }
+  for (std::size_t t = 0; t < data.trials.size(); ++t) {
+    progress("drawing " + data.trials[t].name,
+             0.8 + 0.2 * static_cast<double>(t) / static_cast<double>(data.trials.size()));
+    if (data.stop != nullptr && data.stop->raised) {
+      throw Stopped();
+    }
+    const std::vector<Block> blocks =
+        drawing_blocks(data.trials[t].samples(), details[t], points, content.drawing.detail);
+    report["trials"].push_back(trial_json(data, t, drawn, blocks));
+  }
+  return report;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,33 @@
+// One self-contained page about what a model predicts, where it fails, and what was found.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "validation/diagnose/diagnose.h"
+#include "validation/report/repeat_json.h"
+#include "validation/report/trial_json.h"
+
+namespace plumbline::validation {
+
+struct ReportContent {
+  model::Model given;        ///< before anything was added or fitted
+  std::vector<Rung> ladder;  ///< the first and the last are drawn: before and after
+  nlohmann::json diagnosis;  ///< as `diagnose --json` writes it; null: compared only
+  Repetition repetition;
+  DrawingOptions drawing{};
+};
+
+/// The data of the page (docs/formats.md, "The data of a report"). Throws Stopped on Ctrl-C.
+nlohmann::json report_json(const ReportContent& content, const Data& data, const Progress& progress);
+
+/// The page: HTML, its style, its scripts and these data in one text that needs nothing else.
+std::string report_page(const nlohmann::json& report);
+
+/// The models that `model` stands on and itself, each compared as it is: a ladder without a diagnosis. Models
+/// of one lineage have the same sensors and motors, so that the same data do for all.
+std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catalogue& catalogue,
+                                 const Data& data, const Progress& progress);
+
+}  // namespace plumbline::validation

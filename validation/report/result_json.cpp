@@ -1,0 +1,124 @@
+#include "validation/report/result_json.h"
+
+#include "validation/diagnose/own_parameters.h"
+#include "validation/report/sentences.h"
+
+namespace plumbline::validation {
+namespace {
+
+nlohmann::json to_json(const RankRow& row) {
+  return {{"effect", row.effect},
+          {"at", row.at},
+          {"score", row.score},
+          {"held_out_after", row.held_out_after},
+          {"train_after", row.train_after},
+          {"refitted", row.refitted},
+          {"selected_share", row.selected_share},
+          {"judged_interval", {row.judged_low, row.judged_high}},
+          {"remark", row.remark}};
+}
+
+nlohmann::json to_json(const Finding& finding) {
+  nlohmann::json json{{"effect", finding.effect},
+                      {"at", finding.at},
+                      {"equation", finding.equation},
+                      {"held_out_before", finding.held_out_before},
+                      {"held_out_after", finding.held_out_after},
+                      {"train_before", finding.train_before},
+                      {"train_after", finding.train_after},
+                      {"selected_share", finding.selected_share},
+                      {"rivals", nlohmann::json::array()},
+                      {"parameters", nlohmann::json::array()}};
+  for (const Named& rival : finding.rivals) {
+    json["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
+  }
+  for (const ParameterValue& p : finding.parameters) {
+    json["parameters"].push_back(
+        {{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"standard_deviation", p.deviation}});
+  }
+  return json;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const UnexplainedForce& force) {
+  nlohmann::json json{{"trial", force.trial},
+                      {"motor", force.motor},
+                      {"unit", force.unit},
+                      {"rms", force.rms},
+                      {"relative", force.relative},
+                      {"words", force.words},
+                      {"dependences", nlohmann::json::array()}};
+  for (const Dependence& d : force.dependences) {
+    json["dependences"].push_back({{"variable", d.variable},
+                                   {"unit", d.unit},
+                                   {"share", d.share},
+                                   {"center", d.center},
+                                   {"mean", d.mean}});
+  }
+  return json;
+}
+
+nlohmann::json to_json(const Comparison& comparison) {
+  nlohmann::json json;
+  json["train"] = comparison.scores.train;
+  json["held_out"] = comparison.scores.held_out;
+  json["channels"] = nlohmann::json::array();
+  for (const ChannelError& c : comparison.channels) {
+    json["channels"].push_back({{"trial", c.trial},
+                                {"name", c.name},
+                                {"unit", c.unit},
+                                {"role", to_string(c.role)},
+                                {"rms", c.rms},
+                                {"floor", c.floor},
+                                {"ratio", c.ratio}});
+  }
+  json["windows"] = nlohmann::json::array();
+  for (const WindowError& w : comparison.windows) {
+    json["windows"].push_back({{"trial", w.trial},
+                               {"from", w.from},
+                               {"to", w.to},
+                               {"ratio", w.ratio},
+                               {"worst_channel", w.worst_channel}});
+  }
+  return json;
+}
+
+nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left) {
+  nlohmann::json json;
+  json["verdict"] = to_string(diagnosis.verdict);
+  json["summary"] = summary(diagnosis);
+  json["unexplained_share"] = diagnosis.unexplained_share;
+  json["candidates"] = diagnosis.candidates;
+  json["interrupted"] = diagnosis.interrupted;
+  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "ladder"}) {
+    json[key] = nlohmann::json::array();
+  }
+  for (const Finding& finding : diagnosis.accepted) {
+    json["accepted"].push_back(to_json(finding));
+  }
+  for (const RankRow& row : diagnosis.ranking) {
+    json["ranking"].push_back(to_json(row));
+  }
+  for (const RankRow& row : diagnosis.leads) {
+    json["leads"].push_back(to_json(row));
+  }
+  for (const OwnParameter& own : own_values(diagnosis.final_stage)) {
+    json["own_parameters"].push_back({{"parameter", own.label},
+                                      {"unit", own.unit},
+                                      {"stated", own.stated},
+                                      {"stated_deviation", own.stated_deviation},
+                                      {"value", own.value},
+                                      {"shift", own.shift()}});
+  }
+  for (const Rung& rung : diagnosis.ladder) {
+    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});
+  }
+  json["unexplained_forces"] = nlohmann::json::array();
+  for (const UnexplainedForce& one : left) {
+    json["unexplained_forces"].push_back(to_json(one));
+  }
+  return json;
+}
+
+}  // namespace plumbline::validation

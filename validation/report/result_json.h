@@ -1,0 +1,17 @@
+// Results as JSON, as the commands write them with --json and as the report carries them (docs/formats.md).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "validation/compare/compare.h"
+#include "validation/diagnose/diagnose.h"
+#include "validation/diagnose/unexplained.h"
+
+namespace plumbline::validation {
+
+nlohmann::json to_json(const Comparison& comparison);
+nlohmann::json to_json(const UnexplainedForce& force);
+nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left);
+
+}  // namespace plumbline::validation

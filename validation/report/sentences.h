@@ -1,0 +1,20 @@
+// What a diagnosis found, in words.
+#pragma once
+
+#include <string>
+
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+
+/// "Nothing is missing: ...", "Unexplained: ..."; empty for the verdict `missing`, whose findings speak for
+/// themselves.
+std::string verdict_sentence(const Diagnosis& diagnosis);
+
+/// "Missing: coulomb at drive. With it the held-out error falls from ... to ..."
+std::string finding_sentences(const Finding& finding, Verdict verdict);
+
+/// The whole answer in about two sentences.
+std::string summary(const Diagnosis& diagnosis);
+
+}  // namespace plumbline::validation

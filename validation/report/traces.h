@@ -1,0 +1,18 @@
+// Measured, predicted and residual over time, for one stage of a model.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "validation/diagnose/screen.h"
+#include "validation/report/thin.h"
+
+namespace plumbline::validation {
+
+/// Predictions of every window by trial: samples x channels, SI; NaN where there is no window.
+std::vector<Eigen::MatrixXd> predicted_traces(const Stage& stage, const Data& data, const Progress& progress);
+
+/// The windows of one trial, in the order of time.
+std::vector<Span> spans_of(const Data& data, std::size_t trial);
+
+}  // namespace plumbline::validation
