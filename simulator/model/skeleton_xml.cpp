@@ -131,7 +131,7 @@ const XMLElement& SkeletonXml::find_model() {
 }
 
 XmlPart SkeletonXml::named(const XMLElement& element, const std::vector<XmlPart>& taken) const {
-  const XmlPart part{attribute(element, "name"), element.GetLineNum()};
+  XmlPart part{attribute(element, "name"), element.GetLineNum()};
   if (trimmed(part.name).empty()) {
     refuse({element.Name(), part.line}, "no name", "the attribute name");
   }

@@ -81,6 +81,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     word = word == "{}" ? std::to_string(status.theirs) : word;
   }
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) {
     pointers.push_back(word.data());
   }

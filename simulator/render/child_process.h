@@ -12,9 +12,9 @@ namespace plumbline::render {
 /// True when the program is found on the PATH.
 bool program_exists(const std::string& name);
 
-/// Started with its standard input connected to write(), its output (both kinds) kept in memory only as far
-/// as `last_words` needs. It has a process group of its own, so that Ctrl-C on the terminal reaches only us,
-/// and the kernel ends it should we die without a destructor.
+/// Started with its standard input connected to write(); its standard output is dropped, its errors are kept
+/// in memory for last_words(). It has a process group of its own, so that Ctrl-C on the terminal reaches only
+/// us, and the kernel ends it should we die without a destructor.
 class ChildProcess {
  public:
   /// `pass_status_pipe`: "{}" in an argument becomes the number of a file descriptor that read_status()

@@ -32,7 +32,7 @@ class Director {
            double width_to_height, double from, double to);
 
   View view(double time) const;
-  /// Shows the bodies of one snapshot with room for nothing else (stills, strips).
+  /// A camera in this direction from which all points are in the picture, under the words.
   static View around(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& toward_eye,
                      double width_to_height);
 

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 const std::string kMabel = PLUMBLINE_ROOT "/robots/mabel/";
 
-/// Programs of this name whose parent is process 1 or ours: nobody else's.
+/// Running programs of this name that were started from this test: its mark is in their environment.
 int left_running(const std::string& program) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
