@@ -53,7 +53,7 @@ TEST_F(Json, CheckOfAModel) {
   EXPECT_THAT(keys(model),
               UnorderedElementsAre("kind", "file", "robot", "lineage", "skeleton", "independent_coordinates",
                                    "states", "bodies", "coordinates", "motors", "pulleys", "ratios",
-                                   "inertias", "effects", "sensors", "contact_switches", "places"));
+                                   "inertias", "effects", "sensors", "contact_switches", "places", "meshes"));
   EXPECT_EQ(model["kind"], "model");
   EXPECT_EQ(model["independent_coordinates"], 1);
   EXPECT_EQ(model["states"], 2);

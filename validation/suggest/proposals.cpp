@@ -206,7 +206,7 @@ std::vector<Proposal> proposals(const model::Model& model, const Envelope& envel
 }
 
 bool stays_within(const Envelope& envelope, const Trial& trial) {
-  constexpr double kSpare = 0.5;
+  constexpr double kSpare = 1.0;
   for (const Measured& measured : trial.measured) {
     for (const Envelope::Channel& channel : envelope.channels) {
       const double spare = kSpare * (channel.high - channel.low);

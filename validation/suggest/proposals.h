@@ -40,7 +40,7 @@ Envelope envelope_of(const model::Model& model, const std::vector<Trial>& trials
 /// `share` of the commands' reach.
 std::vector<Proposal> proposals(const model::Model& model, const Envelope& envelope, double share);
 
-/// True when the trial stays where the robot has been, with half of that range to spare at either side.
+/// True when the trial stays where the robot has been, with that range once more to spare at either side.
 bool stays_within(const Envelope& envelope, const Trial& trial);
 
 }  // namespace plumbline::validation

@@ -12,6 +12,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kLeastShare = 0.01;  // of the commands' reach: less is no excitation
 
 bool is_named(const Candidate& candidate, const std::string& name) {
   const std::string& law = candidate.law->declaration().name;
@@ -141,7 +142,7 @@ Suggestions suggest(const model::Model& model, const effects::Catalogue& catalog
   const std::size_t count = proposals(model, envelope, 1.0).size();
   for (std::size_t p = 0; p < count; ++p) {
     bool played = false;
-    for (double share = 1.0; share > 0.1 && !played; share *= 0.5) {
+    for (double share = 1.0; share > kLeastShare && !played; share *= 0.5) {
       const Proposal proposal = proposals(model, envelope, share)[p];
       progress("playing " + proposal.name, 0.1 + 0.9 * static_cast<double>(p) / static_cast<double>(count));
       Separation separation;
