@@ -40,6 +40,13 @@ step "5. See the error fall, on a motion the fit never saw" "ladder TRIALS --mod
 step "6. Look at it" "report TRIALS --model fitted.yaml --diagnosis diagnosis.json -o report.html"
 "$program" report "${trials[@]}" --model "$work/fitted.yaml" --diagnosis "$work/diagnosis.json" -o "$work/report.html"
 
+step "7. Watch it" "render mimo --model fitted.yaml --measured --whole -o mimo.png (and .mp4)"
+draw() { "$program" render "$data/mimo" --model "$work/fitted.yaml" --measured --whole "$@"; }
+draw --at 1.5s -o "$work/mimo.png" || echo "no picture: see the line above"
+if command -v ffmpeg >/dev/null; then
+  draw --from 1s --to 2s --fps 30 --size 640x360 -o "$work/mimo.mp4" || echo "no video: see the line above"
+fi
+
 printf '\nIn plain words: the model lacked %s at %s. What was hidden in the data stands in\n%s.\n' \
   "$effect" "$at" "validation/trials/leg_bench_demo/truth.json"
-printf 'To look at: file://%s\n' "$root/$work/report.html"
+printf 'To look at: file://%s\n' "$root/$work/report.html" "$root/$work"/mimo.*

@@ -429,6 +429,10 @@ void Plant::set_value(ParameterId id, double value) {
   }
 }
 
+Eigen::VectorXd Plant::joint_positions(const double* x) const {
+  return S_tree_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + q0_.head(n_tree_);
+}
+
 double Plant::position_of(const std::string& name, const double* x) const {
   const Line line = line_of(full_direction(name));
   return line.offset + line.reduced.dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));

@@ -71,6 +71,7 @@ class Plant {
   Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain = {});
 
   const Model& model() const { return model_; }
+  const contact::Terrain& terrain() const { return terrain_; }
   int positions() const { return nz_; }
   int states() const { return nx_; }
   int motors() const { return static_cast<int>(model_.motors.size()); }
@@ -130,6 +131,8 @@ class Plant {
   /// Throws std::runtime_error when none is found.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& z, const double* command);
 
+  /// Positions of all joints that move, in the skeleton's order: what body_poses() takes.
+  Eigen::VectorXd joint_positions(const double* x) const;
   /// Full coordinate value of a named joint, coordinate or motor.
   double position_of(const std::string& name, const double* x) const;
   double velocity_of(const std::string& name, const double* x) const;

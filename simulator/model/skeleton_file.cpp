@@ -1,62 +1,11 @@
 // SDFormat and URDF to a Skeleton, through libsdformat.
-#include <console_bridge/console.h>
-
 #include <algorithm>
-#include <exception>
-#include <mutex>
-#include <sdf/sdf.hh>
 
 #include "simulator/model/robot_file.h"
-#include "simulator/model/skeleton_xml.h"
+#include "simulator/model/sdformat_access.h"
 
 namespace plumbline::model {
 namespace {
-
-constexpr const char* kExpected = "a skeleton that libsdformat can read";
-
-/// libsdformat and the URDF parser below it write to the console and keep global state.
-std::mutex& quiet_sdformat() {
-  static std::mutex mutex;
-  static const bool silenced = [] {
-    sdf::Console::Instance()->SetQuiet(true);
-    console_bridge::noOutputHandler();
-    return true;
-  }();
-  static_cast<void>(silenced);
-  return mutex;
-}
-
-void refuse_errors(const sdf::Errors& errors, const SkeletonXml& xml) {
-  if (errors.empty()) {
-    return;
-  }
-  const sdf::Error& first = errors.front();
-  XmlPart part = xml.part_in(first.Message());
-  if (part.line == 0 && !xml.is_urdf() && first.LineNumber()) {
-    part.line = *first.LineNumber();
-  }
-  xml.refuse(part, first.Message(), kExpected);
-}
-
-Eigen::Vector3d to_eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-Eigen::Isometry3d to_eigen(const ignition::math::Pose3d& pose) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  const ignition::math::Quaterniond& q = pose.Rot();
-  X.linear() = Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized().toRotationMatrix();
-  X.translation() = to_eigen(pose.Pos());
-  return X;
-}
-
-Eigen::Matrix3d to_eigen(const ignition::math::Matrix3d& m) {
-  Eigen::Matrix3d M;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      M(i, j) = m(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-    }
-  }
-  return 0.5 * (M + M.transpose());
-}
 
 /// A link or joint before the tree is put in order; poses in the model's frame.
 struct LooseLink {
@@ -252,53 +201,36 @@ LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   return loose;
 }
 
-Skeleton read_loaded(const sdf::Root& root, const SkeletonXml& xml) {
-  const sdf::World* world = root.WorldCount() > 0 ? root.WorldByIndex(0) : nullptr;
-  const sdf::Model* model = world != nullptr ? world->ModelByIndex(0) : root.Model();
-  if (model == nullptr) {
-    xml.refuse({"", 0}, "no model", "one model");
-  }
-  ignition::math::Pose3d pose = model->RawPose();
-  if (world != nullptr) {
-    refuse_errors(model->SemanticPose().Resolve(pose), xml);
+Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
+  ignition::math::Pose3d pose = loaded.model.RawPose();
+  if (loaded.world != nullptr) {
+    refuse_errors(loaded.model.SemanticPose().Resolve(pose), xml);
   }
   std::vector<LooseLink> links;
-  for (std::size_t i = 0; i < model->LinkCount(); ++i) {
-    links.push_back(read_link(*model->LinkByIndex(i), xml));
+  for (std::size_t i = 0; i < loaded.model.LinkCount(); ++i) {
+    links.push_back(read_link(*loaded.model.LinkByIndex(i), xml));
   }
   std::vector<LooseJoint> joints;
-  for (std::size_t i = 0; i < model->JointCount(); ++i) {
-    joints.push_back(read_joint(*model->JointByIndex(i), xml));
+  for (std::size_t i = 0; i < loaded.model.JointCount(); ++i) {
+    joints.push_back(read_joint(*loaded.model.JointByIndex(i), xml));
   }
   Skeleton skeleton;
   skeleton.file = xml.file();
-  if (world != nullptr && xml.states_gravity()) {
-    skeleton.gravity = to_eigen(world->Gravity());
+  if (loaded.world != nullptr && xml.states_gravity()) {
+    skeleton.gravity = to_eigen(loaded.world->Gravity());
   }
   TreeBuilder(xml, std::move(links), std::move(joints), to_eigen(pose)).build(skeleton);
   return skeleton;
-}
-
-Skeleton load(SkeletonXml& xml) {
-  sdf::Root root;
-  refuse_errors(xml.is_urdf() ? root.LoadSdfString(xml.urdf_for_sdformat()) : root.Load(xml.file()), xml);
-  return read_loaded(root, xml);
 }
 
 }  // namespace
 
 Skeleton read_skeleton(const std::string& path) {
   SkeletonXml xml(path);
-  const std::lock_guard<std::mutex> lock(quiet_sdformat());
-  try {
-    return load(xml);
-  } catch (const InputError&) {
-    throw;
-  } catch (const sdf::Exception& error) {
-    xml.refuse({"", 0}, error.GetErrorStr(), kExpected);
-  } catch (const std::exception& error) {
-    xml.refuse({"", 0}, error.what(), kExpected);
-  }
+  Skeleton skeleton;
+  with_sdformat(xml, UrdfShapes::left_out,
+                [&](const LoadedSdf& loaded) { skeleton = read_loaded(loaded, xml); });
+  return skeleton;
 }
 
 }  // namespace plumbline::model

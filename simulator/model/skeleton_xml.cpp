@@ -131,7 +131,7 @@ const XMLElement& SkeletonXml::find_model() {
 }
 
 XmlPart SkeletonXml::named(const XMLElement& element, const std::vector<XmlPart>& taken) const {
-  const XmlPart part{attribute(element, "name"), element.GetLineNum()};
+  XmlPart part{attribute(element, "name"), element.GetLineNum()};
   if (trimmed(part.name).empty()) {
     refuse({element.Name(), part.line}, "no name", "the attribute name");
   }
@@ -253,14 +253,19 @@ void SkeletonXml::keep_fixed_joints(XMLElement& robot) {
   }
 }
 
-std::string SkeletonXml::urdf_for_sdformat() {
+std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
   XMLElement& robot = *document_.RootElement();
-  for (const char* extension : {"gazebo", "transmission", "material"}) {
+  for (const char* extension : {"gazebo", "transmission"}) {
     remove_children(robot, extension);
+  }
+  if (shapes == UrdfShapes::left_out) {
+    remove_children(robot, "material");
   }
   for (XMLElement* link = robot.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
-    remove_children(*link, "visual");
+    if (shapes == UrdfShapes::left_out) {
+      remove_children(*link, "visual");
+    }
     remove_children(*link, "collision");
     if (link->FirstChildElement("inertial") == nullptr && attribute(*link, "name") != "world") {
       tinyxml2::XMLDocument placeholder;

@@ -18,6 +18,9 @@ struct XmlPart {
   int line = 0;
 };
 
+/// Whether the shapes of a URDF's links are kept for libsdformat.
+enum class UrdfShapes { left_out, kept };
+
 /// Reads an .sdf or .urdf and checks its parts: one model and nothing nested, known joint types, each name
 /// once, numbers of every inertial (mass > 0, principal moments > 0, none larger than the sum of the other
 /// two). Throws InputError with file, line, link or joint.
@@ -36,8 +39,9 @@ class SkeletonXml {
   XmlPart part_in(const std::string& message) const;
 
   /// A URDF such that libsdformat keeps every link: fixed joints are kept, massless links get a placeholder
-  /// inertial (which has_inertial() tells from a real one), extensions and shapes are left out.
-  std::string urdf_for_sdformat();
+  /// inertial (which has_inertial() tells from a real one), extensions are left out, and shapes where the
+  /// physics is read.
+  std::string urdf_for_sdformat(UrdfShapes shapes);
 
   [[noreturn]] void refuse(const XmlPart& part, const std::string& found, const std::string& expected) const;
 

@@ -103,7 +103,7 @@ int run(const Inputs& inputs) {
   if (inputs.run.bare_only) {
     return summary.errors == 0 ? 0 : 1;
   }
-  fmt::print("\n{}", summary_text(summary, targets));
+  fmt::print("\n{}\n{}", confusion_text(results), summary_text(summary, targets));
   return targets_met(summary, targets) ? 0 : 1;
 }
 
@@ -128,6 +128,9 @@ int main(int argc, char** argv) {
   app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
   app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");
   app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is");
+  app.add_flag(
+      "--as-stated", inputs.run.as_stated,
+      "the robot's own numbers exactly those of the model, not scattered within what is stated of them");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--list", inputs.list, "only the names of the cases");
   try {

@@ -19,13 +19,15 @@ set(may_validation simulator/effects simulator/trace simulator/sensing simulator
 set(may_tests ${parts})
 
 # External headers that only some parts may see.
-set(guarded simbody sundials vtk)
+set(guarded simbody sundials vtk assimp)
 set(header_simbody "^(Simbody\\.h|SimTK|simbody/|simmath/)")
 set(header_sundials "^(cvodes?|arkode|idas?|kinsol|sundials|nvector|sunmatrix|sunlinsol|sunnonlinsol)/")
 set(header_vtk "^vtk")
+set(header_assimp "^assimp/")
 set(seen_simbody simulator/model simulator/integrate tests)
 set(seen_sundials simulator/model simulator/integrate tests)
-set(seen_vtk simulator/render tests)
+set(seen_vtk simulator/render)
+set(seen_assimp simulator/render)
 
 # Parts that use nothing but the standard library and, where said, Eigen.
 set(pure_parts simulator/effects simulator/sensing contact controllers)

@@ -5,6 +5,7 @@
 #include "simulator/model/yaml_node.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/describe.h"
+#include "validation/cli/describe_meshes.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/inverse_model/inverse_model.h"
@@ -34,8 +35,12 @@ void run(const Options& options) {
   if (!is_trial(options.path)) {
     const model::Model model = model::read_model(options.path, catalogue);
     const Freedom freedom = freedom_of(model, {});
-    write_json(to_json(model, freedom), options.json);
+    const std::vector<MeshOfBody> meshes = meshes_of(model);
+    nlohmann::json json = to_json(model, freedom);
+    json["meshes"] = to_json(meshes);
+    write_json(json, options.json);
     print(model, freedom);
+    print(meshes);
     return;
   }
   const std::string file = options.model.empty() ? validation::model_of_trial(options.path) : options.model;

@@ -11,6 +11,19 @@
 #include "simulator/trace/error.h"
 
 namespace plumbline::validation {
+namespace {
+
+std::vector<model::Observation> observations_of(const model::Plant& plant, const Trial& trial) {
+  std::vector<model::Observation> channels;
+  channels.reserve(trial.measured.size());
+  for (const Measured& channel : trial.measured) {
+    channels.push_back(model::observe_sensor(plant, plant.model().sensor_index(channel.sensor)));
+  }
+  return channels;
+}
+
+}  // namespace
+
 void FreeParameter::set(model::Plant& plant, double value) const {
   plant.set_value(id, value);
   for (const model::ParameterId& other : also) {
@@ -19,7 +32,10 @@ void FreeParameter::set(model::Plant& plant, double value) const {
 }
 
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
-    : trial_(trial), options_(options), plant_(model, trial.locks) {
+    : trial_(trial),
+      options_(options),
+      plant_(model, trial.locks),
+      from_channels_(plant_, observations_of(plant_, trial)) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     const int s = model.sensor_index(trial.measured[c].sensor);
@@ -65,52 +81,35 @@ Eigen::MatrixXd Predictor::local_polynomial(const Window& window) const {
 Eigen::VectorXd Predictor::initial_state(const Window& window) {
   const Eigen::MatrixXd local = local_polynomial(window);
   const Eigen::Index nz = plant_.positions();
-  Eigen::MatrixXd y(channels(), 2);
-  y.col(0) = local.row(0).transpose();
-  y.col(1) = local.row(1).transpose() / trial_.period;
-  const Eigen::MatrixXd z = state_from(y);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
-  x.head(nz) = z.col(0);
-  x.segment(nz, nz) = z.col(1);
+  x.head(nz) = from_channels_.positions(local.row(0).transpose());
+  x.segment(nz, nz) = from_channels_.rates(local.row(1).transpose() / trial_.period);
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
   plant_.settle(command.data(), x.data());
   return x;
 }
 
-// Independent positions (first half of the columns) and velocities (second half) that fit the channels best.
-Eigen::MatrixXd Predictor::state_from(const Eigen::MatrixXd& channel_values) const {
-  const Eigen::MatrixXd& stretch = plant_.stretch_map();
-  const Eigen::Index rows = channels() + stretch.rows();
-  Eigen::MatrixXd C(rows, plant_.positions());
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(rows, channel_values.cols());
-  const Eigen::Index half = channel_values.cols() / 2;
+Eigen::MatrixXd Predictor::measured_positions() const {
+  Eigen::MatrixXd y(channels(), trial_.samples());
   for (int c = 0; c < channels(); ++c) {
-    const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
-    C.row(c) = plant_.output_map().row(s) / floors_[c];
-    y.row(c) = channel_values.row(c) / floors_[c];
-    y.row(c).head(half).array() -= plant_.output_offset()[s] / floors_[c];
+    y.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
   }
-  // A stretch that no sensor sees is taken as zero, with a weight that never fights a sensor.
-  const double weak = 1e-6 * C.topRows(channels()).cwiseAbs().maxCoeff();
-  C.bottomRows(stretch.rows()) = weak * stretch;
-  return C.completeOrthogonalDecomposition().solve(y);
+  return from_channels_.positions(y);
 }
 
 void Predictor::measure_motion() {
   const Eigen::Index n = trial_.samples();
   const Eigen::Index nz = plant_.positions();
-  Eigen::MatrixXd y(channels(), 2 * n);
+  Eigen::MatrixXd rates(channels(), n);
   for (int c = 0; c < channels(); ++c) {
     const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
-    y.row(c).head(n) = values.transpose();
-    y.row(c).tail(n) =
+    rates.row(c) =
         sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal()).transpose();
   }
-  const Eigen::MatrixXd z = state_from(y);
   motion_.resize(2 * nz, n);
-  motion_.topRows(nz) = z.leftCols(n);
-  motion_.bottomRows(nz) = z.rightCols(n);
+  motion_.topRows(nz) = measured_positions();
+  motion_.bottomRows(nz) = from_channels_.rates(rates);
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {

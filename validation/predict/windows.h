@@ -10,6 +10,7 @@
 #include "simulator/integrate/held_commands.h"
 #include "simulator/integrate/integrator.h"
 #include "simulator/model/plant.h"
+#include "simulator/model/positions_from.h"
 #include "validation/trial/trial.h"
 
 namespace plumbline::validation {
@@ -91,6 +92,10 @@ class Predictor {
 
   /// Predicted channels, count x channels, SI.
   Eigen::MatrixXd predict(const Window& window, const Eigen::VectorXd& x0);
+  /// States of the window predicted last, states x count.
+  const Eigen::MatrixXd& predicted_states() const { return states_; }
+  /// Independent positions that fit the measured channels best, positions x samples of the trial.
+  Eigen::MatrixXd measured_positions() const;
   /// Residuals only.
   Eigen::VectorXd residual(const Window& window, const Eigen::VectorXd& x0);
   Linearisation linearise(const Window& window, const Eigen::VectorXd& x0,
@@ -134,7 +139,6 @@ class Predictor {
                   const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps, bool refresh,
                   Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
-  Eigen::MatrixXd state_from(const Eigen::MatrixXd& channels) const;
   void measure_motion();
   void carry_hidden(const Window& window, double* x);
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
@@ -145,6 +149,7 @@ class Predictor {
   model::Plant plant_;
   std::vector<int> sensor_of_channel_;
   Eigen::VectorXd floors_;
+  model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   std::vector<int> foot_of_switch_;

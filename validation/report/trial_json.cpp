@@ -23,17 +23,15 @@ double four_digits(double value) {
   return std::round(value * unit) / unit;
 }
 
-/// Mean squares of a window's sampled channels, in units of the floor.
-Eigen::VectorXd window_squares(const Stage& stage, const Data& data, std::size_t w) {
-  const Window& window = data.windows[w];
-  const auto& measured = data.trials[static_cast<std::size_t>(window.trial)].measured;
-  return stage.estimate.square[w].head(static_cast<Eigen::Index>(measured.size())) /
-         static_cast<double>(window.count);
+/// Sums of squared residuals of a window's channels; those of contact switches behind them are left out.
+Eigen::VectorXd channel_squares(const Stage& stage, const Data& data, std::size_t w) {
+  const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
+  return stage.estimate.square[w].head(static_cast<Eigen::Index>(trial.measured.size()));
 }
 
 /// Root mean square over the channels of a window, in units of the floor.
 double window_ratio(const Stage& stage, const Data& data, std::size_t w) {
-  return std::sqrt(window_squares(stage, data, w).mean());
+  return std::sqrt(channel_squares(stage, data, w).mean() / static_cast<double>(data.windows[w].count));
 }
 
 /// Indices of a trial's windows (of all trials when it is negative), those with the largest error first.
@@ -64,8 +62,8 @@ json windows_json(const Data& data, std::size_t trial, const std::vector<Drawn>&
     for (const Drawn& one : drawn) {
       ratios.push_back(four_digits(window_ratio(*one.stage, data, w)));
       json by_channel = json::array();
-      for (const double square : window_squares(*one.stage, data, w)) {
-        by_channel.push_back(four_digits(std::sqrt(square)));
+      for (const double square : channel_squares(*one.stage, data, w)) {
+        by_channel.push_back(four_digits(std::sqrt(square / static_cast<double>(window.count))));
       }
       channels.push_back(by_channel);
     }
@@ -123,16 +121,6 @@ json shares_json(const PhaseTable& table, Eigen::Index samples) {
   return shares;
 }
 
-/// Stated events, touchdowns and lift-offs.
-std::vector<double> event_times(const Trial& trial) {
-  std::vector<double> times = trial.events;
-  for (const ContactEvent& event : trial.contact_events) {
-    times.push_back(event.time);
-  }
-  std::sort(times.begin(), times.end());
-  return times;
-}
-
 /// The place of a trial's first channel in Comparison::channels.
 std::size_t first_channel(const Data& data, std::size_t trial) {
   std::size_t first = 0;
@@ -171,6 +159,35 @@ json channel_json(const Data& data, std::size_t trial, std::size_t channel, cons
                              {"density", floats(lines.density)}});
   }
   return out;
+}
+
+/// Errors of the instants at which contact switches close and open.
+json switches_json(const Data& data, std::size_t trial, const std::vector<Drawn>& drawn) {
+  const Trial& of = data.trials[trial];
+  json list = json::array();
+  for (std::size_t r = 0; r < of.switches.size(); ++r) {
+    const std::size_t place = first_channel(data, trial) + of.measured.size() + r;
+    json one{{"sensor", of.switches[r].name},
+             {"unit", "s"},
+             {"floor", drawn.front().comparison.channels[place].floor},
+             {"models", json::array()}};
+    for (const Drawn& model : drawn) {
+      one["models"].push_back(
+          {{"rms", model.comparison.channels[place].rms}, {"ratio", model.comparison.channels[place].ratio}});
+    }
+    list.push_back(one);
+  }
+  return list;
+}
+
+json contacts_json(const Trial& trial) {
+  json list = json::array();
+  for (const ContactEvent& event : trial.contact_events) {
+    list.push_back({{"time", event.time},
+                    {"contact_switch", trial.switches[static_cast<std::size_t>(event.record)].name},
+                    {"kind", event.touchdown ? "touchdown" : "lift-off"}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -216,7 +233,9 @@ json trial_json(const Data& data, std::size_t trial, const std::vector<Drawn>& d
            {"role", to_string(of.role)},
            {"period", of.period},
            {"samples", of.samples()},
-           {"events", event_times(of)},
+           {"events", of.events},
+           {"contact_events", contacts_json(of)},
+           {"switches", switches_json(data, trial, drawn)},
            {"points", points},
            {"time", floats(thinned_time(of.time, blocks))},
            {"windows", windows_json(data, trial, drawn)},

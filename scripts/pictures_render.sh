@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Makes the pictures of the robot in docs/images: hops, stills and a strip. Needs PLUMBLINE, the program.
+set -euo pipefail
+
+root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
+program=${PLUMBLINE:-$root/build/validation/cli/plumbline}
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+cd -- "$root"
+mkdir -p docs/images
+
+"$program" hop robots/mabel/mabel_planar.yaml robots/mabel/hopping.yaml --hops 6 -o "$work/plane.csv"
+"$program" hop robots/mabel/mabel.yaml robots/mabel/hopping_boom.yaml --hops 4 -o "$work/boom.csv"
+
+draw() { "$program" render --trace "$work/$1.csv" --model "robots/mabel/$2" "${@:4}" -o "docs/images/$3.png"; }
+
+draw plane mabel_planar.yaml hop_stance --at 1.56s --size 640x480
+draw plane mabel_planar.yaml hop_strip --from 1.499s --to 1.859s --strip 13 --size 1200x400
+draw boom mabel.yaml hop_boom --at 1.54s --camera boom --size 800x480

@@ -1,0 +1,62 @@
+#include "simulator/model/positions_from.h"
+
+#include <algorithm>
+
+namespace plumbline::model {
+namespace {
+
+constexpr double kNoFloor = 1e-9;
+// Of a stretch of zero against the channels: never fights a sensor.
+constexpr double kWeak = 1e-6;
+
+}  // namespace
+
+Observation observe_sensor(const Plant& plant, int sensor) {
+  const double floor = plant.model().sensors[static_cast<std::size_t>(sensor)].floor();
+  return {plant.output_map().row(sensor), plant.output_offset()[sensor], std::max(floor, kNoFloor)};
+}
+
+Observation observe_place(const Plant& plant, const std::string& name, double deviation) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  Observation seen{Eigen::RowVectorXd(plant.positions()), plant.position_of(name, x.data()), deviation};
+  for (int i = 0; i < plant.positions(); ++i) {
+    x[i] = 1.0;
+    seen.row[i] = plant.position_of(name, x.data()) - seen.offset;
+    x[i] = 0.0;
+  }
+  return seen;
+}
+
+PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>& channels)
+    : positions_(plant.positions()),
+      stretches_(plant.stretch_map().rows()),
+      offsets_(static_cast<Eigen::Index>(channels.size())),
+      weights_(static_cast<Eigen::Index>(channels.size())) {
+  const Eigen::Index n = offsets_.size();
+  Eigen::MatrixXd C(n + stretches_, positions_);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const Observation& channel = channels[static_cast<std::size_t>(c)];
+    offsets_[c] = channel.offset;
+    weights_[c] = 1.0 / channel.deviation;
+    C.row(c) = weights_[c] * channel.row;
+  }
+  const double largest = n > 0 ? C.topRows(n).cwiseAbs().maxCoeff() : 1.0;
+  C.bottomRows(stretches_) = kWeak * largest * plant.stretch_map();
+  solver_.compute(C);
+}
+
+Eigen::MatrixXd PositionsFrom::solve(const Eigen::MatrixXd& weighted) const {
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(weighted.rows() + stretches_, weighted.cols());
+  right.topRows(weighted.rows()) = weighted;
+  return solver_.solve(right);
+}
+
+Eigen::MatrixXd PositionsFrom::positions(const Eigen::MatrixXd& values) const {
+  return solve(weights_.asDiagonal() * (values.colwise() - offsets_));
+}
+
+Eigen::MatrixXd PositionsFrom::rates(const Eigen::MatrixXd& values) const {
+  return solve(weights_.asDiagonal() * values);
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,58 @@
+#include "simulator/render/mesh_mass.h"
+
+#include <Eigen/LU>
+#include <map>
+#include <utility>
+
+namespace plumbline::render {
+
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<int, int>, int> balance;  // of each edge, up less down
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = triangle[k];
+      const int to = triangle[(k + 1) % 3];
+      if (from != to) {
+        balance[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+      }
+    }
+  }
+  for (const auto& [edge, difference] : balance) {
+    if (difference != 0) {
+      return false;
+    }
+  }
+  return !balance.empty();
+}
+
+SolidProperties solid_properties(const Mesh& mesh) {
+  double volume = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  // About a point of the mesh: far from the origin the sums would lose digits.
+  const Eigen::Vector3d base = mesh.points.empty() ? Eigen::Vector3d::Zero() : mesh.points.front();
+  for (const auto& triangle : mesh.triangles) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) {
+      corners.col(k) = mesh.points[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])] - base;
+    }
+    const double J = corners.determinant();
+    const Eigen::Vector3d sum = corners.rowwise().sum();
+    volume += J / 6.0;
+    first += J / 24.0 * sum;
+    second += J / 120.0 * (corners * corners.transpose() + sum * sum.transpose());
+  }
+  SolidProperties solid;
+  if (volume == 0.0) {
+    return solid;
+  }
+  const double sign = volume < 0.0 ? -1.0 : 1.0;
+  solid.volume = sign * volume;
+  const Eigen::Vector3d center = first / volume;
+  const Eigen::Matrix3d central = sign * second - solid.volume * center * center.transpose();
+  solid.inertia = central.trace() * Eigen::Matrix3d::Identity() - central;
+  solid.center = base + center;
+  return solid;
+}
+
+}  // namespace plumbline::render

@@ -1,0 +1,29 @@
+// Volume, centre and inertia of what a closed mesh encloses.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "simulator/render/mesh.h"
+
+namespace plumbline::render {
+
+/// Of a solid with density 1.
+struct SolidProperties {
+  double volume = 0.0;                                ///< m^3
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();   ///< of mass, in the mesh's frame, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, per density, m^5
+};
+
+/// True when every edge belongs to two triangles that run along it in opposite directions (as often one way
+/// as the other where several parts touch).
+bool is_closed(const Mesh& mesh);
+
+/// Each triangle and the origin span a tetrahedron; the signed sums are the integrals of 1, r and r r' over
+/// the solid (divergence theorem): with J = det[a b c], volume J/6, first moment J/24 (a + b + c), second
+/// moments J/120 (sum over the corners of p p' + s s'), s = a + b + c.
+/// Source: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its vertex
+/// coordinates", J. Mathematics and Statistics 1 (2005). Meaningful only when is_closed(). A surface that
+/// faces inward gives the same solid.
+SolidProperties solid_properties(const Mesh& mesh);
+
+}  // namespace plumbline::render
