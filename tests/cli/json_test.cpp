@@ -53,7 +53,7 @@ TEST_F(Json, CheckOfAModel) {
   EXPECT_THAT(keys(model),
               UnorderedElementsAre("kind", "file", "robot", "lineage", "skeleton", "independent_coordinates",
                                    "states", "bodies", "coordinates", "motors", "pulleys", "ratios",
-                                   "inertias", "effects", "sensors", "places", "meshes"));
+                                   "inertias", "effects", "sensors", "contact_switches", "places", "meshes"));
   EXPECT_EQ(model["kind"], "model");
   EXPECT_EQ(model["independent_coordinates"], 1);
   EXPECT_EQ(model["states"], 2);
@@ -75,9 +75,10 @@ TEST_F(Json, CheckOfAModel) {
 
 TEST_F(Json, CheckOfATrial) {
   const json trial = from({"check", "trials/steps"});
-  EXPECT_THAT(keys(trial), UnorderedElementsAre("kind", "file", "title", "model", "data", "role", "samples",
-                                                "period", "duration", "independent_coordinates", "events",
-                                                "measured", "commands", "locked", "controllers"));
+  EXPECT_THAT(keys(trial),
+              UnorderedElementsAre("kind", "file", "title", "model", "data", "role", "samples", "period",
+                                   "duration", "independent_coordinates", "events", "measured", "commands",
+                                   "locked", "controllers", "contact_events"));
   EXPECT_EQ(trial["kind"], "trial");
   EXPECT_EQ(trial["role"], "train");
   EXPECT_EQ(trial["samples"], 1000);
