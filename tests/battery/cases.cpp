@@ -31,7 +31,7 @@ void add_hidden(const std::string& robot, const std::vector<Row>& rows,
                        robot,
                        Kind::hidden,
                        strength,
-                       row,
+                       {row},
                        {}});
     }
   }
@@ -43,23 +43,43 @@ void add_none(const std::string& robot, int count, std::vector<Case>& cases) {
   }
 }
 
+const Row& find_row(const std::vector<Row>& rows, const std::string& name) {
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const Row& one) { return one.effect + "@" + one.at == name; });
+  if (row == rows.end()) {
+    throw std::logic_error("no row for " + name);
+  }
+  return *row;
+}
+
 void add_removed(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
   for (const Removal& removal : leg_bench_removals()) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
-      return one.effect == removal.effect && one.at == removal.at;
-    });
-    if (row == rows.end()) {
-      throw std::logic_error("no row for " + removal.effect + "@" + removal.at);
-    }
-    cases.push_back({robot + "/removed/" + row->effect + "@" + row->at, robot, Kind::removed,
-                     Strength::strong, *row, removal.laws});
+    const std::string name = removal.effect + "@" + removal.at;
+    cases.push_back({robot + "/removed/" + name,
+                     robot,
+                     Kind::removed,
+                     Strength::strong,
+                     {find_row(rows, name)},
+                     removal.laws});
+  }
+}
+
+void add_pairs(const std::string& robot, const std::vector<Row>& rows, const std::vector<Pair>& pairs,
+               std::vector<Case>& cases) {
+  for (const auto& [one, other] : pairs) {
+    cases.push_back({robot + "/pair/" + one + "+" + other,
+                     robot,
+                     Kind::pair,
+                     Strength::medium,
+                     {find_row(rows, one), find_row(rows, other)},
+                     {}});
   }
 }
 
 void add_foreign(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
   for (const Row& row : rows) {
     cases.push_back(
-        {robot + "/foreign/" + row.effect + "@" + row.at, robot, Kind::foreign, Strength::strong, row, {}});
+        {robot + "/foreign/" + row.effect + "@" + row.at, robot, Kind::foreign, Strength::strong, {row}, {}});
   }
 }
 
@@ -87,6 +107,8 @@ std::string to_string(Kind kind) {
       return "none";
     case Kind::foreign:
       return "foreign";
+    case Kind::pair:
+      return "pair";
     case Kind::removed:
       break;
   }
@@ -147,13 +169,16 @@ std::vector<std::string> robots_of_rig(const std::string& rig) {
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
-  const std::vector<Strength> two{Strength::weak, Strength::strong};
-  add_hidden("leg_bench", leg_bench_rows(), two, cases);
-  add_none("leg_bench", 5, cases);
+  const std::vector<Strength> all{Strength::weak, Strength::medium, Strength::strong};
+  add_hidden("leg_bench", leg_bench_rows(), all, cases);
+  add_none("leg_bench", 10, cases);
   add_removed("leg_bench", leg_bench_rows(), cases);
-  add_hidden("pendulum", pendulum_rows(), two, cases);
-  add_none("pendulum", 1, cases);
-  add_hidden("hopper", hopper_rows(), {Strength::weak, Strength::medium, Strength::strong}, cases);
+  add_pairs("leg_bench", leg_bench_rows(), leg_bench_pairs(), cases);
+  add_foreign("leg_bench", leg_bench_foreign_rows(), cases);
+  add_hidden("pendulum", pendulum_rows(), all, cases);
+  add_none("pendulum", 4, cases);
+  add_foreign("pendulum", pendulum_foreign_rows(), cases);
+  add_hidden("hopper", hopper_rows(), all, cases);
   add_none("hopper", 6, cases);
   add_foreign("hopper", hopper_foreign_rows(), cases);
   return cases;

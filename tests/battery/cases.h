@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/model/model.h"
@@ -12,8 +13,8 @@ namespace plumbline::battery {
 
 /// hidden: the effect is in the data and in the catalogue. none: nothing is in the data that the model does
 /// not have. removed: the effect is in the data, but the catalogue knows neither it nor laws that contain it.
-/// foreign: what is in the data is a law that only this test knows.
-enum class Kind { hidden, none, removed, foreign };
+/// foreign: what is in the data is a law that only this test knows. pair: two effects of the catalogue.
+enum class Kind { hidden, none, removed, foreign, pair };
 std::string to_string(Kind kind);
 
 enum class Strength { weak, medium, strong };
@@ -27,8 +28,9 @@ struct Robot {
 };
 
 /// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is
-/// NUMBER, or WEAK|STRONG or WEAK|MEDIUM|STRONG when it differs between the strengths; BASE+NUMBER or
-/// BASE-NUMBER adds a base that is never varied ("scale=1+0.01|0.1", "rest=0.35-0.05").
+/// NUMBER, or WEAK|STRONG or WEAK|MEDIUM|STRONG when it differs between the strengths (medium, where it is
+/// not given: the geometric mean); BASE+NUMBER or BASE-NUMBER adds a base that is never varied
+/// ("scale=1+0.01|0.1", "rest=0.35-0.05").
 struct Row {
   std::string effect, at, parameters;
 };
@@ -38,7 +40,7 @@ struct Case {
   std::string robot;  ///< Robot::name
   Kind kind = Kind::hidden;
   Strength strength = Strength::strong;
-  Row row;                           ///< empty when nothing is hidden
+  std::vector<Row> rows;             ///< what is hidden: none, one, or the two of a pair
   std::vector<std::string> removed;  ///< laws that this case takes out of the catalogue
 };
 
@@ -51,7 +53,13 @@ const std::vector<Row>& leg_bench_rows();
 const std::vector<Row>& pendulum_rows();
 const std::vector<Row>& hopper_rows();
 /// Laws of foreign_laws.h.
+const std::vector<Row>& leg_bench_foreign_rows();
+const std::vector<Row>& pendulum_foreign_rows();
 const std::vector<Row>& hopper_foreign_rows();
+
+/// Names "effect@place" of two rows of the leg bench's table.
+using Pair = std::pair<std::string, std::string>;
+const std::vector<Pair>& leg_bench_pairs();
 
 /// The robots of a rig: bench, pendulum, hopper or all. Throws std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);

@@ -39,19 +39,21 @@ class Checks {
 std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT) + "/" + file; }
 
 /// The use that the command line would make of what the case hides.
-model::EffectUse use_of(const Case& one, const model::Model& model, std::uint64_t seed) {
+model::EffectUse use_of(const Case& one, const Row& row, const model::Model& model, std::uint64_t seed) {
   const effects::Catalogue all = every_law();
   Draw draw(one, seed);
-  return validation::parse_effect(drawn_effect(one, all, draw), with_foreign_places(model), all);
+  return validation::parse_effect(drawn_effect(row, one.strength, all, draw), with_foreign_places(model),
+                                  all);
 }
 
-void check_hidden(const Case& one, const model::Model& model, Checks& checks) {
-  const effects::Values a = use_of(one, model, 1).numbers();
-  const effects::Values b = use_of(one, model, 2).numbers();
-  const std::shared_ptr<const effects::Law> law = every_law().find(one.row.effect);
+void check_hidden(const Case& one, const Row& row, const model::Model& model, Checks& checks) {
+  const effects::Values a = use_of(one, row, model, 1).numbers();
+  const effects::Values b = use_of(one, row, model, 2).numbers();
+  const std::shared_ptr<const effects::Law> law = every_law().find(row.effect);
   checks.expect(!law->is_null(a.data()), one.name + " hides nothing");
   checks.expect(a != b, one.name + " draws the same values from different seeds");
-  checks.expect(a == use_of(one, model, 1).numbers(), one.name + " draws different values from one seed");
+  checks.expect(a == use_of(one, row, model, 1).numbers(),
+                one.name + " draws different values from one seed");
   for (std::size_t p = 0; p < a.size(); ++p) {
     if (law->declaration().parameters[p].structural) {
       checks.expect(a[p] == b[p],
@@ -67,7 +69,7 @@ void check_hidden(const Case& one, const model::Model& model, Checks& checks) {
 
 void check_removed(const Case& one, Checks& checks) {
   const effects::Catalogue all = effects::Catalogue::all();
-  checks.expect(std::count(one.removed.begin(), one.removed.end(), one.row.effect) == 1,
+  checks.expect(std::count(one.removed.begin(), one.removed.end(), one.rows.front().effect) == 1,
                 one.name + " leaves its own effect in the catalogue");
   for (const std::string& law : one.removed) {
     checks.expect(all.find(law) != nullptr, one.name + " removes the unknown " + law);
@@ -88,9 +90,13 @@ void check_cases(const std::map<std::string, model::Model>& models, Checks& chec
   for (const Case& one : all_cases()) {
     try {
       checks.expect(names.insert(one.name).second, one.name + " is there twice");
-      if (one.kind != Kind::none) {
-        check_hidden(one, models.at(one.robot), checks);
+      for (const Row& row : one.rows) {
+        check_hidden(one, row, models.at(one.robot), checks);
       }
+      checks.expect(one.rows.size() == (one.kind == Kind::none   ? 0U
+                                        : one.kind == Kind::pair ? 2U
+                                                                 : 1U),
+                    one.name + " hides the wrong number of effects");
       if (one.kind == Kind::removed) {
         check_removed(one, checks);
       }

@@ -2,9 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "simulator/effects/parameters.h"
 
 namespace plumbline::battery {
 namespace {
@@ -57,8 +60,14 @@ double of_strength(const std::string& text, Strength strength) {
   for (std::string part; std::getline(all, part, '|');) {
     parts.push_back(part);
   }
+  if (parts.size() == 1) {
+    return number(text);
+  }
   if (parts.size() == 2 && strength == Strength::medium) {
-    throw std::invalid_argument("'" + text + "' has no medium strength");
+    return std::copysign(std::sqrt(number(parts[0]) * number(parts[1])), number(parts[0]));
+  }
+  if (parts.size() > 3) {
+    throw std::invalid_argument("'" + text + "' gives more than three strengths");
   }
   return number(strength == Strength::weak     ? parts.front()
                 : strength == Strength::medium ? parts[1]
@@ -82,19 +91,29 @@ Nominal read_value(const std::string& text, Strength strength) {
 
 Draw::Draw(const Case& one, std::uint64_t seed) : random_(seeded(one.name, seed)) {}
 
-double Draw::factor() {
-  const double unit = static_cast<double>(random_() >> 11U) * 0x1.0p-53;  // in [0, 1)
-  return 1.0 + kSpread * (2.0 * unit - 1.0);
+double Draw::unit() { return static_cast<double>(random_() >> 11U) * 0x1.0p-53; }
+
+double Draw::factor() { return 1.0 + kSpread * (2.0 * unit() - 1.0); }
+
+double Draw::deviations() {
+  // Box and Muller; drawn again beyond two deviations. std::normal_distribution differs between platforms.
+  for (;;) {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - unit()));
+    const double normal = radius * std::cos(2.0 * effects::kPi * unit());
+    if (std::abs(normal) <= kMostDeviations) {
+      return normal;
+    }
+  }
 }
 
-std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, Draw& draw) {
-  const auto law = catalogue.find(one.row.effect);
+std::string drawn_effect(const Row& row, Strength strength, const effects::Catalogue& catalogue, Draw& draw) {
+  const auto law = catalogue.find(row.effect);
   if (!law) {
-    throw std::invalid_argument("unknown effect '" + one.row.effect + "'");
+    throw std::invalid_argument("unknown effect '" + row.effect + "'");
   }
-  std::string text = one.row.effect + "@" + one.row.at;
+  std::string text = row.effect + "@" + row.at;
   char separator = ':';
-  std::stringstream items(one.row.parameters);
+  std::stringstream items(row.parameters);
   for (std::string item; std::getline(items, item, ',');) {
     const std::size_t equal = item.find('=');
     const std::string parameter = item.substr(0, equal);
@@ -102,13 +121,40 @@ std::string drawn_effect(const Case& one, const effects::Catalogue& catalogue, D
     if (equal == std::string::npos || index < 0) {
       throw std::invalid_argument("unknown parameter '" + parameter + "'");
     }
-    const Nominal nominal = read_value(item.substr(equal + 1), one.strength);
+    const Nominal nominal = read_value(item.substr(equal + 1), strength);
     const bool structural = law->declaration().parameters[static_cast<std::size_t>(index)].structural;
     const double factor = structural ? 1.0 : draw.factor();
-    text += fmt::format("{}{}={:.6g}", separator, parameter, nominal.base + factor * nominal.varied);
+    // What is added to a base may be small beside it.
+    const int digits = nominal.base != 0.0 ? 9 : 6;
+    text += fmt::format("{}{}={:.{}g}", separator, parameter, nominal.base + factor * nominal.varied, digits);
     separator = ',';
   }
   return text;
+}
+
+model::Model scattered(const model::Model& stated, Draw& draw) {
+  model::Model robot = stated;
+  for (model::Body& body : robot.skeleton.bodies) {
+    const double factor = body.mass > 0.0 ? 1.0 + draw.deviations() * body.mass_uncertainty / body.mass : 1.0;
+    body.mass *= factor;
+    body.inertia *= factor;
+  }
+  for (model::EffectUse& use : robot.effects) {
+    for (model::Quantity& value : use.values) {
+      value.value += draw.deviations() * value.uncertainty;
+    }
+  }
+  for (model::Motor& motor : robot.motors) {
+    motor.rotor_inertia.value += draw.deviations() * motor.rotor_inertia.uncertainty;
+    const double share = motor.torque_constant.uncertainty / motor.torque_constant.value;
+    model::Quantity scale;
+    scale.value = 1.0 + draw.deviations() * share;
+    if (share > 0.0) {
+      robot.effects.push_back(
+          {effects::Catalogue::all().find("torque_constant_error"), motor.name, {scale}, 0});
+    }
+  }
+  return robot;
 }
 
 }  // namespace plumbline::battery

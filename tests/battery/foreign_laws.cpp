@@ -5,6 +5,7 @@
 
 #include "simulator/effects/parameters.h"
 #include "simulator/model/known_effects.h"
+#include "tests/battery/foreign_formulas.h"
 
 namespace plumbline::battery {
 namespace {
@@ -89,8 +90,11 @@ class RailMagnets final : public ForeignLaw {
 }  // namespace
 
 std::vector<std::shared_ptr<const effects::Law>> foreign_laws() {
-  return {std::make_shared<const FadingGround>(), std::make_shared<const WarmingFriction>(),
-          std::make_shared<const RailMagnets>()};
+  std::vector<std::shared_ptr<const effects::Law>> laws = foreign_formulas();
+  laws.push_back(std::make_shared<const FadingGround>());
+  laws.push_back(std::make_shared<const WarmingFriction>());
+  laws.push_back(std::make_shared<const RailMagnets>());
+  return laws;
 }
 
 effects::Catalogue every_law() {

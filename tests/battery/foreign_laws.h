@@ -8,7 +8,7 @@ namespace plumbline::battery {
 
 /// fading_ground: at a foot's height over the ground; the elastic force of a ground of this stiffness wears
 /// off by `share` within `time`. warming_friction: friction that grows with the heat it makes.
-/// rail_magnets: a force that repeats along the way.
+/// rail_magnets: a force that repeats along the way. And those of foreign_formulas.h.
 std::vector<std::shared_ptr<const effects::Law>> foreign_laws();
 
 /// The laws that robot files know, and these.

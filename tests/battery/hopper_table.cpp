@@ -77,7 +77,7 @@ const std::vector<Row>& hopper_rows() {
       {"added_mass", "slider", "mass=0.064|0.13|0.3"},
       {"added_mass", "foot", "mass=0.028|0.06|0.12"},
       {"encoder_offset", "height", "offset=1.5e-5|4.1e-5|0.00012"},
-      {"encoder_scale", "height", "scale=1+3.7e-5|0.0001|0.00031"},
+      {"encoder_scale", "height", "scale=1+3.7e-5|1e-4|3.1e-4"},
       {"encoder_offset", "drive", "offset=0.005|0.015|0.045"},
       {"encoder_scale", "drive", "scale=1+6e-4|1.8e-3|6e-3"},
       {"encoder_offset", "spring", "offset=1.3e-5|3.6e-5|0.00011"},

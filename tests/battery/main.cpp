@@ -17,16 +17,20 @@ struct Inputs {
   RunOptions run;
   std::vector<std::string> only;
   std::size_t subset = 0;
-  std::string rig = "all";
+  std::vector<std::string> rigs{"all"};
   bool list = false;
   bool explain = false;
   std::string json, csv;
 };
 
-/// Cases of the rig whose name contains one of the words; all when there are none.
-std::vector<Case> chosen(const std::string& rig, const std::vector<std::string>& words) {
+/// Cases of the rigs whose name contains one of the words; all when there are none.
+std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector<std::string>& words) {
   std::vector<Case> cases = all_cases();
-  const std::vector<std::string> robots = robots_of_rig(rig);
+  std::vector<std::string> robots;
+  for (const std::string& rig : rigs) {
+    const std::vector<std::string> of_rig = robots_of_rig(rig);
+    robots.insert(robots.end(), of_rig.begin(), of_rig.end());
+  }
   const auto is_left_out = [&](const Case& one) {
     if (std::find(robots.begin(), robots.end(), one.robot) == robots.end()) {
       return true;
@@ -65,7 +69,7 @@ void show_bare(const Result& result) {
 }
 
 int run(const Inputs& inputs) {
-  const std::vector<Case> cases = subset(chosen(inputs.rig, inputs.only), inputs.subset, inputs.run.seed);
+  const std::vector<Case> cases = subset(chosen(inputs.rigs, inputs.only), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
@@ -99,7 +103,7 @@ int run(const Inputs& inputs) {
   if (inputs.run.bare_only) {
     return summary.errors == 0 ? 0 : 1;
   }
-  fmt::print("\n{}", summary_text(summary, targets));
+  fmt::print("\n{}\n{}", confusion_text(results), summary_text(summary, targets));
   return targets_met(summary, targets) ? 0 : 1;
 }
 
@@ -116,11 +120,17 @@ int main(int argc, char** argv) {
   app.add_option("--only", inputs.only, "only cases whose name contains SUBSTRING; may be repeated")
       ->type_name("SUBSTRING")
       ->allow_extra_args(false);
-  app.add_option("--rig", inputs.rig, "bench, pendulum, hopper or all")->capture_default_str();
+  app.add_option("--rig", inputs.rigs, "bench, pendulum, hopper or all; may be repeated")
+      ->type_name("RIG")
+      ->allow_extra_args(false)
+      ->capture_default_str();
   app.add_option("--subset", inputs.subset, "only K cases, drawn with the seed")->type_name("K");
   app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
   app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");
   app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is");
+  app.add_flag(
+      "--as-stated", inputs.run.as_stated,
+      "the robot's own numbers exactly those of the model, not scattered within what is stated of them");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--list", inputs.list, "only the names of the cases");
   try {

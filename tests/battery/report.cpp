@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -14,41 +15,50 @@ constexpr const char* kLayout = "{:<44} {:>8} {:>7} {:<15} {:<28} {:>3} {:<6} {:
 
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
+/// Nothing hidden is always to be judged; what is hidden only where it can be seen.
+bool counts(const Result& result) { return result.one.kind == Kind::none || result.visible; }
+
 std::string outcome(const Result& result) {
   if (!result.error.empty()) {
     return "ERROR";
   }
-  const bool unseen = result.one.kind == Kind::hidden && !result.visible;
-  return result.right ? "right" : (unseen ? "unseen" : "WRONG");
+  return result.right ? "right" : (counts(result) ? "WRONG" : "unseen");
 }
+
+std::string name_of(const Row& row) { return row.effect + "@" + row.at; }
 
 void add_hidden(const Result& result, const Targets& targets, Summary& summary) {
   ++summary.hidden;
   if (!result.visible) {
     return;
   }
-  ++summary.visible;
-  if (!result.right) {
-    return;
+  (result.one.strength == Strength::weak ? summary.weak : summary.clear).add(result.right);
+  if (result.right) {
+    summary.first.add(result.first == name_of(result.one.rows.front()));
+    summary.at_floor.add(result.after <= targets.each_after);
+    summary.after.push_back(result.after);
   }
-  ++summary.right;
-  summary.first += result.first == result.one.row.effect + "@" + result.one.row.at ? 1 : 0;
-  summary.above_floor += result.after > targets.floor ? 1 : 0;
-  summary.worst_after = std::max(summary.worst_after, result.after);
-}
-
-double right_share(const Summary& summary) {
-  return summary.visible == 0 ? 1.0 : static_cast<double>(summary.right) / summary.visible;
 }
 
 const char* mark(bool met) { return met ? "met" : "MISSED"; }
+
+std::vector<std::string> names_of(const Case& one) {
+  std::vector<std::string> names;
+  for (const Row& row : one.rows) {
+    names.push_back(name_of(row));
+  }
+  return names;
+}
+
+nlohmann::json to_json(const Count& count) {
+  return {{"of", count.of}, {"met", count.met}, {"share", count.share()}};
+}
 
 nlohmann::json to_json(const Result& r) {
   return {{"case", r.one.name},
           {"robot", r.one.robot},
           {"kind", to_string(r.one.kind)},
-          {"effect", r.one.row.effect},
-          {"at", r.one.row.at},
+          {"hidden", names_of(r.one)},
           {"strength", to_string(r.one.strength)},
           {"with", r.with},
           {"removed", r.one.removed},
@@ -58,7 +68,7 @@ nlohmann::json to_json(const Result& r) {
           {"first_named", r.first},
           {"others_named", r.others},
           {"set_size", r.set_size},
-          {"in_set", r.in_set},
+          {"intervals", {{"asked", r.asked}, {"inside", r.inside}}},
           {"right", r.right},
           {"held_out_before", r.before},
           {"held_out_after", r.after},
@@ -91,36 +101,81 @@ void close(std::ofstream& out, const std::string& file) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 Summary summarise(const std::vector<Result>& results, const Targets& targets) {
   Summary summary;
   for (const Result& result : results) {
-    summary.seconds += result.seconds;
+    summary.seconds.push_back(result.seconds);
+    summary.errors += result.error.empty() ? 0 : 1;
     if (!result.error.empty()) {
-      ++summary.errors;
       continue;
     }
-    const int named = result.first.empty() ? 0 : 1;
-    switch (result.one.kind) {
-      case Kind::hidden:
-        add_hidden(result, targets, summary);
-        break;
-      case Kind::none:
-        ++summary.none;
-        summary.named_on_none += named;
-        break;
-      case Kind::removed:
-      case Kind::foreign:
-        ++summary.removed;
-        summary.confident_wrong += result.verdict == "missing" ? 1 : 0;
-        break;
+    summary.intervals.of += result.asked;
+    summary.intervals.met += result.inside;
+    if (result.one.kind == Kind::hidden) {
+      add_hidden(result, targets, summary);
+    } else if (counts(result)) {
+      Count& count = result.one.kind == Kind::none   ? summary.none
+                     : result.one.kind == Kind::pair ? summary.pairs
+                                                     : summary.unknown;
+      count.add(result.right);
     }
   }
   return summary;
 }
 
+namespace {
+
+/// One line of the scoreboard.
+struct Line {
+  std::string what, measured, target;
+  bool met;
+};
+
+std::string share_text(const Count& count) {
+  return count.of == 0 ? "-" : fmt::format("{:.1f} % ({} of {})", 100.0 * count.share(), count.met, count.of);
+}
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+constexpr int kFewIntervals = 100;  // fewer tell nothing about how often intervals hold
+
+std::vector<Line> scoreboard(const Summary& s, const Targets& t) {
+  const int named = s.none.of - s.none.met;
+  const double intervals = s.intervals.share();
+  return {
+      {"right name, medium and strong", share_text(s.clear), percent(t.clear), s.clear.share() >= t.clear},
+      {"right name, weak", share_text(s.weak), percent(t.weak), s.weak.share() >= t.weak},
+      {"right name, all", share_text(s.overall()), percent(t.overall), s.overall().share() >= t.overall},
+      {"nothing hidden, an effect named", fmt::format("{} of {}", named, s.none.of),
+       std::to_string(t.named_on_none), named <= t.named_on_none},
+      {"pairs with both found, none invented", share_text(s.pairs), percent(t.pairs),
+       s.pairs.share() >= t.pairs},
+      {"laws outside the catalogue, no confident name", share_text(s.unknown), percent(t.unknown),
+       s.unknown.share() >= t.unknown},
+      {"held-out error after, median, floors", fmt::format("{:.3f}", median(s.after)),
+       fmt::format("{}", t.after), median(s.after) <= t.after},
+      {"95 % intervals that hold the truth", share_text(s.intervals),
+       percent(t.intervals_from) + " to " + percent(t.intervals_to),
+       s.intervals.of == 0 || (intervals >= t.intervals_from && intervals <= t.intervals_to)},
+      {"seconds for a case, median", fmt::format("{:.1f}", median(s.seconds)), fmt::format("{}", t.seconds),
+       median(s.seconds) <= t.seconds}};
+}
+
+}  // namespace
+
 bool targets_met(const Summary& summary, const Targets& targets) {
-  return summary.errors == 0 && right_share(summary) >= targets.right_share && summary.above_floor == 0 &&
-         summary.named_on_none <= targets.named_on_none && summary.confident_wrong <= targets.confident_wrong;
+  const std::vector<Line> lines = scoreboard(summary, targets);
+  return summary.errors == 0 &&
+         std::all_of(lines.begin(), lines.end(), [](const Line& line) { return line.met; });
 }
 
 std::string table_head() {
@@ -154,22 +209,48 @@ std::string explanation(const Result& result) {
 }
 
 std::string summary_text(const Summary& s, const Targets& t) {
-  std::string text = fmt::format("{} hidden effects, {} visible (bare held-out error at least {} floors)\n",
-                                 s.hidden, s.visible, kVisible);
-  text += fmt::format("  right            {:>4} of {} ({:.1f} %), {} named first; target {:.0f} %: {}\n",
-                      s.right, s.visible, 100.0 * right_share(s), s.first, 100.0 * t.right_share,
-                      mark(right_share(s) >= t.right_share));
-  text += fmt::format("  held-out after   worst {:.3f} floors, {} of the right above {}; target 0: {}\n",
-                      s.worst_after, s.above_floor, t.floor, mark(s.above_floor == 0));
-  text += fmt::format("nothing hidden     {:>4} of {} cases name an effect; target at most {}: {}\n",
-                      s.named_on_none, s.none, t.named_on_none, mark(s.named_on_none <= t.named_on_none));
-  text += fmt::format("law removed        {:>4} of {} confident wrong names; target at most {}: {}\n",
-                      s.confident_wrong, s.removed, t.confident_wrong,
-                      mark(s.confident_wrong <= t.confident_wrong));
-  if (s.errors > 0) {
-    text += fmt::format("could not be run   {:>4} cases: MISSED\n", s.errors);
+  std::string text = fmt::format(
+      "{} cases with one hidden effect, {} of them visible (held-out error before anything is named at least "
+      "{} floors)\n\n",
+      s.hidden, s.overall().of, kVisible);
+  for (const Line& line : scoreboard(s, t)) {
+    text += fmt::format("  {:<48} {:<22} target {:<13} {}\n", line.what, line.measured, line.target,
+                        mark(line.met));
   }
-  return text + fmt::format("{:.0f} s\n", s.seconds);
+  text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
+                      share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
+  if (s.errors > 0) {
+    text += fmt::format("  {} cases could not be run: MISSED\n", s.errors);
+  }
+  return text;
+}
+
+std::string confusion_text(const std::vector<Result>& results) {
+  struct Line {
+    Count right;
+    std::map<std::string, int> others;
+  };
+  std::map<std::string, Line> lines;
+  for (const Result& result : results) {
+    if (!result.error.empty() || !counts(result)) {
+      continue;
+    }
+    const bool one = result.one.kind == Kind::hidden;
+    Line& line = lines[one ? result.one.rows.front().effect : "(" + to_string(result.one.kind) + ")"];
+    line.right.add(result.right);
+    if (!result.right) {
+      ++line.others[result.first.empty() ? result.verdict : result.first.substr(0, result.first.find('@'))];
+    }
+  }
+  std::string text = "hidden                    right    otherwise named\n";
+  for (const auto& [law, line] : lines) {
+    std::string others;
+    for (const auto& [name, times] : line.others) {
+      others += fmt::format("{}{} x {}", others.empty() ? "" : ", ", times, name);
+    }
+    text += fmt::format("{:<24} {:>3} of {:<3}  {}\n", law, line.right.met, line.right.of, others);
+  }
+  return text;
 }
 
 void write_json(const std::string& file, const std::vector<Result>& results, const Summary& s,
@@ -178,23 +259,24 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
   for (const Result& result : results) {
     json["cases"].push_back(to_json(result));
   }
+  for (const Line& line : scoreboard(s, t)) {
+    json["scoreboard"].push_back(
+        {{"measure", line.what}, {"measured", line.measured}, {"target", line.target}, {"met", line.met}});
+  }
   json["summary"] = {{"hidden", s.hidden},
-                     {"visible", s.visible},
-                     {"right", s.right},
-                     {"named_first", s.first},
-                     {"above_floor", s.above_floor},
-                     {"worst_held_out_after", s.worst_after},
-                     {"none", s.none},
-                     {"named_on_none", s.named_on_none},
-                     {"removed", s.removed},
-                     {"confident_wrong", s.confident_wrong},
+                     {"visible", s.overall().of},
+                     {"clear", to_json(s.clear)},
+                     {"weak", to_json(s.weak)},
+                     {"first", to_json(s.first)},
+                     {"none", to_json(s.none)},
+                     {"pairs", to_json(s.pairs)},
+                     {"unknown", to_json(s.unknown)},
+                     {"at_floor", to_json(s.at_floor)},
+                     {"intervals", to_json(s.intervals)},
+                     {"median_after", median(s.after)},
+                     {"median_seconds", median(s.seconds)},
                      {"errors", s.errors},
-                     {"seconds", s.seconds},
                      {"targets_met", targets_met(s, t)}};
-  json["targets"] = {{"right_share", t.right_share},
-                     {"held_out_after", t.floor},
-                     {"named_on_none", t.named_on_none},
-                     {"confident_wrong", t.confident_wrong}};
   std::ofstream out = opened(file);
   out << json.dump(2) << "\n";
   close(out, file);
@@ -202,15 +284,13 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
 
 void write_csv(const std::string& file, const std::vector<Result>& results) {
   std::ofstream out = opened(file);
-  out << "case,kind,effect,at,strength,with,bare_held_out,visible,verdict,first_named,others_named,set_size,"
-         "in_set,"
-         "right,held_out_before,held_out_after,seconds,error\n";
+  out << "case,kind,strength,with,bare_held_out,visible,verdict,first_named,others_named,set_size,"
+         "asked,inside,right,held_out_before,held_out_after,seconds,error\n";
   for (const Result& r : results) {
-    out << fmt::format("{},{},{},{},{},{},{:.6g},{:d},{},{},{},{},{:d},{:d},{:.6g},{:.6g},{:.3f},{}\n",
-                       r.one.name, to_string(r.one.kind), r.one.row.effect, r.one.row.at,
-                       to_string(r.one.strength), quoted(r.with), r.bare, r.visible, r.verdict, r.first,
-                       r.others, r.set_size, r.in_set, r.right, r.before, r.after, r.seconds,
-                       quoted(r.error));
+    out << fmt::format("{},{},{},{},{:.6g},{:d},{},{},{},{},{},{},{:d},{:.6g},{:.6g},{:.3f},{}\n", r.one.name,
+                       to_string(r.one.kind), to_string(r.one.strength), quoted(r.with), r.bare, r.visible,
+                       r.verdict, r.first, r.others, r.set_size, r.asked, r.inside, r.right, r.before,
+                       r.after, r.seconds, quoted(r.error));
   }
   close(out, file);
 }

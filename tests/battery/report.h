@@ -8,22 +8,44 @@
 
 namespace plumbline::battery {
 
+/// So many of so many.
+struct Count {
+  int of = 0, met = 0;
+  void add(bool holds) {
+    ++of;
+    met += holds ? 1 : 0;
+  }
+  double share() const { return of == 0 ? 1.0 : static_cast<double>(met) / of; }
+};
+
 struct Targets {
-  double right_share = 0.90;  ///< least share of visible hidden effects that must be right
-  double floor = 1.15;        ///< most that the held-out error may be after a right answer, in floors
-  int named_on_none = 0;      ///< most effects named where nothing is hidden
-  int confident_wrong = 1;  ///< most wrong names with verdict "missing" where the law is not in the catalogue
+  double clear = 0.95;       ///< share of right names, visible cases of medium and strong effects
+  double weak = 0.75;        ///< the same, weak effects
+  double overall = 0.90;     ///< the same, all together
+  int named_on_none = 0;     ///< effects named where nothing is hidden
+  double pairs = 0.80;       ///< share of pairs with both found and none invented
+  double unknown = 0.90;     ///< share of laws outside the catalogue without a confident wrong name
+  double after = 1.1;        ///< median held-out error after a right answer, in floors
+  double each_after = 1.15;  ///< from here an error after a right answer is counted as too large
+  double intervals_from = 0.90, intervals_to = 0.99;  ///< share of 95 % intervals that hold the truth
+  double seconds = 60.0;                              ///< median time of a case
 };
 
 struct Summary {
-  int hidden = 0, visible = 0, right = 0, first = 0;
-  int above_floor = 0;  ///< right, but above Targets::floor
-  double worst_after = 0.0;
-  int none = 0, named_on_none = 0;
-  int removed = 0, confident_wrong = 0;
+  int hidden = 0;              ///< cases with one effect, visible or not
+  Count clear, weak, first;    ///< visible ones; `first`: named first among the right ones
+  Count none, pairs, unknown;  ///< none: with nothing named
+  Count at_floor;              ///< right ones with an error below Targets::each_after
+  Count intervals;
+  std::vector<double> after;  ///< held-out errors of right single cases
+  std::vector<double> seconds;
   int errors = 0;
-  double seconds = 0.0;
+
+  Count overall() const { return {clear.of + weak.of, clear.met + weak.met}; }
 };
+
+/// 0 without values.
+double median(std::vector<double> values);
 
 Summary summarise(const std::vector<Result>& results, const Targets& targets);
 /// A target that no case touches is met; a case that could not be run misses them all.
@@ -35,6 +57,8 @@ std::string table_line(const Result& result);
 /// diagnosis.
 std::string explanation(const Result& result);
 std::string summary_text(const Summary& summary, const Targets& targets);
+/// For every hidden law how often it was right and which other names were given, of the visible cases.
+std::string confusion_text(const std::vector<Result>& results);
 
 /// Throw std::runtime_error when the file cannot be written.
 void write_json(const std::string& file, const std::vector<Result>& results, const Summary& summary,

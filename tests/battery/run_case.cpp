@@ -1,6 +1,8 @@
 #include "tests/battery/run_case.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 
 #include "simulator/model/known_effects.h"
@@ -27,15 +29,31 @@ void vary_amplitudes(validation::Experiment& experiment, Draw& draw) {
   }
 }
 
+/// The robot with what the case hides in it, and what that is.
+struct Truth {
+  model::Model robot;
+  std::vector<model::EffectUse> hidden;
+  std::string text;
+};
+
+Truth truth_of(const Case& one, const model::Model& bare, Draw& draw, const RunOptions& run) {
+  Truth truth{one.kind == Kind::foreign ? with_foreign_places(bare) : bare, {}, ""};
+  for (const Row& row : one.rows) {
+    const std::string with = drawn_effect(row, one.strength, every_law(), draw);
+    truth.hidden.push_back(validation::parse_effect(with, truth.robot, every_law()));
+    truth.text += (truth.text.empty() ? "" : " ") + with;
+  }
+  if (!run.as_stated) {
+    truth.robot = scattered(truth.robot, draw);
+  }
+  truth.robot.effects.insert(truth.robot.effects.end(), truth.hidden.begin(), truth.hidden.end());
+  return truth;
+}
+
 /// The case's trials in memory. Without a hidden effect the excitation differs from seed to seed instead of
 /// the effect's parameters, because sensors without noise would always give the same data.
-std::vector<validation::Trial> trials_of(const Case& one, const model::Model& bare, const std::string& with,
+std::vector<validation::Trial> trials_of(const Case& one, const model::Model& bare, const Truth& truth,
                                          Draw& draw, const RunOptions& run) {
-  model::Model truth = bare;
-  if (!with.empty()) {
-    truth = one.kind == Kind::foreign ? with_foreign_places(bare) : bare;
-    truth.effects.push_back(validation::parse_effect(with, truth, every_law()));
-  }
   validation::TwinOptions options;
   options.seed = run.seed;
   options.relative_tolerance = kTwinTolerance;
@@ -47,7 +65,7 @@ std::vector<validation::Trial> trials_of(const Case& one, const model::Model& ba
       vary_amplitudes(experiment, draw);
     }
     if (!run.bare_only || experiment.role == validation::Role::held_out) {
-      trials.push_back(validation::twin(truth, experiment, options));
+      trials.push_back(validation::twin(truth.robot, experiment, options));
       trials.back().name = trials.back().file = file;
     }
     ++options.seed;
@@ -55,37 +73,71 @@ std::vector<validation::Trial> trials_of(const Case& one, const model::Model& ba
   return trials;
 }
 
-bool names(const Row& truth, const std::string& effect, const std::string& at) {
-  return truth.effect == effect && truth.at == at;
+bool names(const model::EffectUse& truth, const std::string& effect, const std::string& at) {
+  return truth.law->declaration().name == effect && truth.at == at;
 }
 
-void judge(const validation::Diagnosis& diagnosis, Result& result) {
+/// Is the truth the finding's name, or one of a small set of rivals?
+bool finds(const validation::Finding& finding, const model::EffectUse& truth) {
+  return names(truth, finding.effect, finding.at) ||
+         (finding.rivals.size() <= kMostRivals &&
+          std::any_of(finding.rivals.begin(), finding.rivals.end(),
+                      [&](const validation::Named& rival) { return names(truth, rival.effect, rival.at); }));
+}
+
+/// How many of the fitted values' 95 % intervals hold the true ones.
+void count_intervals(const validation::Finding& finding, const model::EffectUse& truth, Result& result) {
+  constexpr double kDeviations = 1.96;
+  for (const validation::ParameterValue& fitted : finding.parameters) {
+    const int index = truth.law->parameter_index(fitted.name);
+    const double value = truth.values[static_cast<std::size_t>(index)].value;
+    ++result.asked;
+    result.inside += std::abs(fitted.value - value) <= kDeviations * fitted.deviation ? 1 : 0;
+  }
+}
+
+bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::EffectUse>& hidden,
+              Kind kind) {
+  const auto is_found = [&](const model::EffectUse& truth) {
+    return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
+                       [&](const validation::Finding& finding) { return finds(finding, truth); });
+  };
+  switch (kind) {
+    case Kind::none:
+      return diagnosis.accepted.empty();
+    case Kind::removed:
+    case Kind::foreign:
+      return diagnosis.verdict != validation::Verdict::missing;
+    case Kind::pair:
+      return diagnosis.accepted.size() == 2 && std::all_of(hidden.begin(), hidden.end(), is_found);
+    case Kind::hidden:
+      break;
+  }
+  return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front());
+}
+
+void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   result.after = diagnosis.final_stage.estimate.scores.held_out;
-  result.before = result.after;
+  result.before = diagnosis.accepted.empty() ? result.after : diagnosis.accepted.front().held_out_before;
+  result.visible = result.before >= kVisible;
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;
-  result.right = (result.one.kind == Kind::none && diagnosis.accepted.empty()) ||
-                 ((result.one.kind == Kind::removed || result.one.kind == Kind::foreign) &&
-                  diagnosis.verdict != validation::Verdict::missing);
-  if (diagnosis.accepted.empty()) {
-    return;
-  }
-  const Row& truth = result.one.row;
-  const validation::Finding& first = diagnosis.accepted.front();
-  result.first = first.effect + "@" + first.at;
-  for (std::size_t i = 1; i < diagnosis.accepted.size(); ++i) {
-    result.others += (i > 1 ? " " : "") + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at;
-  }
-  result.before = first.held_out_before;
-  result.set_size = 1 + static_cast<int>(first.rivals.size());
-  const bool named_first = names(truth, first.effect, first.at);
-  result.in_set = named_first;
-  for (const validation::Named& rival : first.rivals) {
-    result.in_set = result.in_set || names(truth, rival.effect, rival.at);
-  }
-  if (result.one.kind == Kind::hidden) {
-    result.right = named_first || (result.in_set && result.set_size <= 1 + kMostRivals);
+  result.right = is_right(diagnosis, truth.hidden, result.one.kind);
+  for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
+    const validation::Finding& finding = diagnosis.accepted[i];
+    const std::string name = finding.effect + "@" + finding.at;
+    if (i == 0) {
+      result.first = name;
+      result.set_size = 1 + static_cast<int>(finding.rivals.size());
+    } else {
+      result.others += (i > 1 ? " " : "") + name;
+    }
+    for (const model::EffectUse& one : truth.hidden) {
+      if (names(one, finding.effect, finding.at) && one.law->declaration().source != "test only") {
+        count_intervals(finding, one, result);
+      }
+    }
   }
 }
 
@@ -99,18 +151,16 @@ effects::Catalogue catalogue_of(const Case& one) {
 
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
-  const effects::Catalogue all = model::known_effects();
-  const model::Model bare = model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, all);
+  const model::Model bare =
+      model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, model::known_effects());
   Draw draw(one, options.seed);
-  if (one.kind != Kind::none) {
-    result.with = drawn_effect(one, every_law(), draw);
-  }
-  const validation::Data data(trials_of(one, bare, result.with, draw, options), {});
+  const Truth truth = truth_of(one, bare, draw, options);
+  result.with = truth.text;
+  const validation::Data data(trials_of(one, bare, truth, draw, options), {});
   result.bare = validation::compare(bare, data).scores.held_out;
-  result.visible = result.bare >= kVisible;
   if (!options.bare_only) {
     const auto silent = [](const std::string& /*what*/, double /*fraction*/) {};
-    judge(validation::diagnose(bare, catalogue_of(one), data, {}, silent), result);
+    judge(validation::diagnose(bare, catalogue_of(one), data, {}, silent), truth, result);
   }
 }
 

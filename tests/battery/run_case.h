@@ -9,25 +9,27 @@
 
 namespace plumbline::battery {
 
-constexpr double kVisible = 1.3;  ///< bare held-out error, in floors, from which an effect must be found
-constexpr int kMostRivals = 2;    ///< a set of names with more rivals is no answer
+constexpr double kVisible = 1.15;       ///< held-out error, in floors, from which an effect must be found
+constexpr std::size_t kMostRivals = 2;  ///< a set of names with more rivals is no answer
 
 struct Result {
   Case one;
-  std::string with;   ///< what was hidden, as `plumbline twin --with` reads it; empty: nothing
-  double bare = 0.0;  ///< held-out error of the model as it is, in floors; nothing fitted
-  bool visible = false;
+  std::string with;      ///< what was hidden, as `plumbline twin --with` reads it, joined by spaces
+  double bare = 0.0;     ///< held-out error of the model as it is, in floors; nothing fitted
+  bool visible = false;  ///< `before` is at least kVisible
   std::string verdict;
-  std::string first;    ///< first effect named, "coulomb@mLA"; empty: none
-  std::string others;   ///< further accepted effects, joined by spaces
-  int set_size = 0;     ///< the first name and its rivals
-  bool in_set = false;  ///< the truth is the first name or one of its rivals
-  /// hidden: named first, or in a set of at most kMostRivals rivals; none: nothing named; removed: no verdict
-  /// "missing"
+  std::string first;   ///< first effect named, "coulomb@mLA"; empty: none
+  std::string others;  ///< further accepted effects, joined by spaces
+  int set_size = 0;    ///< the first name and its rivals
+  /// hidden: named first, or in a set of at most kMostRivals rivals; pair: so for both, and nothing else;
+  /// none: nothing named; removed, foreign: no verdict "missing"
   bool right = false;
-  double before = 0.0;  ///< held-out error with the model's own parameters fitted
-  double after = 0.0;   ///< held-out error with all that was accepted
+  /// Held-out error before anything was named: what the hidden effect does beyond what an honest change of
+  /// the model's own numbers can do, where these were freed.
+  double before = 0.0;
+  double after = 0.0;  ///< held-out error with all that was accepted
   double seconds = 0.0;
+  int asked = 0, inside = 0;  ///< parameters of rightly named effects; 95 % intervals that hold the truth
   std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected
   std::string error;                                ///< why the case could not be run; empty otherwise
 };
@@ -35,6 +37,8 @@ struct Result {
 struct RunOptions {
   std::uint64_t seed = 1;
   bool bare_only = false;  ///< held-out trials only and no diagnosis
+  bool as_stated =
+      false;  ///< the robot's own numbers are exactly those of the model, not scattered about them
 };
 
 /// Never throws for a case that fails: the reason is in Result::error.

@@ -14,7 +14,8 @@ class Interrupt : public RobotFolder {
   /// long/steps: so long that nothing can be done with it in a moment.
   void make_long_trial() const {
     replace("experiments/steps.yaml", "duration: {value: 2, unit: s}", "duration: {value: 40, unit: s}");
-    succeed({"twin", "robot/model.yaml", "--experiment", "experiments/steps.yaml", "--out", "long"});
+    succeed({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008", "--experiment",
+             "experiments/steps.yaml", "--out", "long"});
   }
 
   /// Starts the command on a terminal and interrupts it as soon as that shows the text; it must end soon.
@@ -37,8 +38,8 @@ class Interrupt : public RobotFolder {
 
 TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   make_long_trial();
-  const Outcome outcome = interrupted_at(
-      "the model's own parameters", {"diagnose", "long/steps", "--json", "d.json", "--save", "found.yaml"});
+  const Outcome outcome =
+      interrupted_at("screening", {"diagnose", "long/steps", "--json", "d.json", "--save", "found.yaml"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("Stopped before the end"));
   const nlohmann::json json = read_json("d.json");
@@ -70,6 +71,19 @@ TEST_F(Interrupt, FitWritesNothing) {
   EXPECT_EQ(outcome.status, 130);
   EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user"));
   EXPECT_THAT(changed_since(before), testing::IsEmpty());
+}
+
+TEST_F(Interrupt, ReportWritesNoHalfPage) {
+  make_long_trial();
+  const auto before = snapshot();
+  for (const std::string how : {"--most=1", "--no-diagnose"}) {
+    const Outcome outcome =
+        interrupted_at(how == "--no-diagnose" ? "comparing model.yaml" : "the model as given",
+                       {"report", "long/steps", how, "-o", "r.html", "--json", "r.json"});
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("plumbline: stopped by the user"));
+    EXPECT_THAT(changed_since(before), testing::IsEmpty());
+  }
 }
 
 TEST_F(Interrupt, SimulateWritesNothing) {

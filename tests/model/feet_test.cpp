@@ -173,24 +173,23 @@ TEST_F(FeetTest, AContactSwitchIsReadAndNamesAFoot) {
   EXPECT_THAT(refusal_of("{contact: foot, measures: x, assumed: test}"), HasSubstr("measures"));
 }
 
-// A ground that is 3 mm higher stops the block 3 mm higher; one of twice the stiffness lets it sink 2^(2/3)
-// times less (Hertz).
-TEST_F(FeetTest, ErrorsOfTheGroundMoveWhereTheBlockRests) {
-  const auto rest = [&](const std::string& effects) {
+// A ground that is 3 mm higher pushes as the old one does 3 mm further down; one of twice the stiffness
+// pushes twice as hard where nothing moves.
+TEST_F(FeetTest, ErrorsOfTheGroundChangeItsPush) {
+  const auto push = [&](double z, const std::string& effects) {
     Plant plant(model(9.81, kFoot, ground(0.0, false) + effects), {});
     Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-    x[1] = 0.2995;
-    const integrate::RunResult result = run(plant, x, 2000);
-    return result.states(1, 1999);
+    x[1] = z;
+    return plant.touches(x.data())[0].force.z();
   };
   const auto effect = [](const std::string& name, const std::string& value) {
     return "  - effect: " + name + "\n    at: foot\n    values: {" + value + ", assumed: test}}\n";
   };
-  const double sunk = 0.3 - rest("");
-  ASSERT_GT(sunk, 3e-4);
-  EXPECT_NEAR(rest(effect("ground_height_error", "height: {value: 3, unit: mm")), 0.303 - sunk, 2e-6);
-  EXPECT_NEAR(rest(effect("ground_stiffness_error", "scale: {value: 2, unit: '1'")),
-              0.3 - sunk * std::pow(2.0, -2.0 / 3.0), 2e-6);
+  const double expected = 2e6 * std::pow(0.004, 1.5);  // Hertz, 4 mm deep
+  EXPECT_NEAR(push(0.296, ""), expected, 1e-9);
+  EXPECT_NEAR(push(0.299, effect("ground_height_error", "height: {value: 3, unit: mm")), expected, 1e-9);
+  EXPECT_NEAR(push(0.296, effect("ground_stiffness_error", "scale: {value: 2, unit: '1'")), 2.0 * expected,
+              1e-9);
 }
 
 TEST_F(FeetTest, BadFeetAreRefused) {

@@ -9,10 +9,10 @@ foreach(needed chromium node)
     set(missing "${needed} is not installed (./plumb test installs it)")
   endif()
 endforeach()
-set(version 1.65.1)
+set(version 1.58.2)  # the later ones want Node.js 20, Debian 12 has 18
 if(NOT missing)
   npm_package(playwright-core ${version}
-    86a3e9cfb6e548c3f1595768784d728814b35ec2a254e77693e9230af994cb00f618f3b60ddf477dc5a7abd34dd061db3590c5819f497c116bf97e7f04ba34ab
+    c99904b5fb60c12f02b1f628ee79b4284f23b2f9ba8bf3d3815b41f032fbdbac0d7fa1f620cb03bb10a9263e7d2836b10ad4a7ad66a7d80783a8cec905aba5b6
     ${NPM})
   set(missing "${NPM_FAILURE}")
 endif()

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace plumbline::validation {
@@ -78,6 +79,21 @@ TEST(Phases, ManyEventsShareTheLastColumn) {
   const PhaseTable table = phases_of(trial, trial.measured[0]);
   EXPECT_EQ(table.members[place_of(table, "after 7")].size(), 100U);
   EXPECT_EQ(table.members[place_of(table, "later")].size(), 3000U - 800U);
+}
+
+TEST(Phases, ContactIsWhichSwitchesAreClosed) {
+  Trial trial = sine_trial();
+  SwitchRecord left{"left", "left", Eigen::VectorXd::Zero(3000)};
+  SwitchRecord right = left;
+  right.name = "right";
+  left.values.segment(1000, 600).setOnes();
+  right.values.segment(1500, 500).setOnes();
+  trial.switches = {left, right};
+  const PhaseTable table = phases_of(trial, trial.measured[0]);
+  EXPECT_EQ(table.members[place_of(table, "flight")].size(), 2000U);
+  EXPECT_EQ(table.members[place_of(table, "left")].size(), 500U);
+  EXPECT_EQ(table.members[place_of(table, "left + right")].size(), 100U);
+  EXPECT_EQ(table.members[place_of(table, "right")].size(), 400U);
 }
 
 TEST(Phases, AChannelAtRestIsTurning) {

@@ -12,7 +12,7 @@ using testing::Not;
 Diagnosis found(std::vector<std::string> effects, Verdict verdict, double before, double after) {
   Diagnosis diagnosis;
   diagnosis.verdict = verdict;
-  diagnosis.ladder.resize(2);
+  diagnosis.ladder.resize(2);  // train errors stay 0
   diagnosis.ladder[0].stage.estimate.scores.held_out = before;
   diagnosis.ladder[1].stage.estimate.scores.held_out = after;
   for (const std::string& effect : effects) {
@@ -42,6 +42,17 @@ TEST(Summary, APartIsNotTheAnswer) {
   EXPECT_THAT(text, HasSubstr("Unexplained: the held-out error stays 5.00 times the floor."));
   EXPECT_THAT(text, HasSubstr("coulomb at drive helps"));
   EXPECT_THAT(text, Not(HasSubstr("Missing")));
+}
+
+TEST(Summary, WithoutHeldOutTrialsSpeaksOfTheTrainError) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 0.0, 0.0);
+  diagnosis.accepted[0].train_before = 8.0;
+  diagnosis.accepted[0].train_after = 1.0;
+  EXPECT_THAT(summary(diagnosis),
+              HasSubstr("With it the train error falls from 8.00 to 1.00 times the floor;"));
+  diagnosis = found({}, Verdict::nothing_missing, 0.0, 0.0);
+  diagnosis.ladder[1].stage.estimate.scores.train = 0.9;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("predicts the train motion to 0.90 times"));
 }
 
 TEST(Summary, NothingMissingAndNothingFinished) {

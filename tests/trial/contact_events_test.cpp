@@ -28,11 +28,15 @@ TEST(ContactEvents, LieHalfASampleBeforeTheFirstSampleThatShowsThem) {
   EXPECT_EQ(events[1].sample, 80);
 }
 
-TEST(ContactEvents, ABounceIsNone) {
+TEST(ContactEvents, BouncesAfterATouchdownAreNone) {
   const std::vector<ContactEvent> events = contact_events(switched({30, 45, 60, 90}, 200));
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].sample, 30);
   EXPECT_EQ(events[1].sample, 90);
+}
+
+TEST(ContactEvents, AShortKnockInFlightIsNone) {
+  EXPECT_TRUE(contact_events(switched({100, 110}, 200)).empty());
 }
 
 TEST(ContactEvents, TheirFloorIsThatOfTheSampling) {

@@ -44,6 +44,45 @@ TEST_F(ReadExperiment, CommandsAreSampledInSi) {
   EXPECT_NEAR(drive.values[102], 5 * std::cos(2 * kPi * 2 * 0.02) + 0.25, 1e-7);
 }
 
+constexpr const char* kController = R"(controllers:
+  - kind: cascade_pd
+    motor: drive
+    sensor: place
+    position_gain: {value: 40, unit: 1/s, assumed: test}
+    velocity_gain: {value: 0.25, unit: V s/mm, assumed: test}
+    reference:
+      - {kind: steps, times: [1 s], levels: [30], unit: mm}
+)";
+
+TEST_F(ReadExperiment, AControllerFollowsItsReferenceAndAddsWhatIsCommanded) {
+  const Experiment experiment = read(good_experiment() + kController);
+  ASSERT_EQ(experiment.controllers.size(), 1U);
+  const Controller& one = experiment.controllers[0];
+  EXPECT_NEAR(one.velocity_gain, 250, 1e-9);
+  EXPECT_NEAR(one.reference[99], 0.0, 1e-12);
+  EXPECT_NEAR(one.reference[100], 0.03, 1e-12);
+  EXPECT_EQ(one.disturbance, experiment.commands[1].values);
+}
+
+TEST_F(ReadExperiment, AControlledMotorNeedsNoCommandOfItsOwn) {
+  const std::string text = good_experiment();
+  const Experiment experiment = read(text.substr(0, text.find("commands:")) + kController);
+  ASSERT_EQ(experiment.commands.size(), 1U);
+  EXPECT_EQ(experiment.commands[0].motor, "drive");
+  EXPECT_EQ(experiment.controllers[0].disturbance.size(), 0);
+}
+
+TEST_F(ReadExperiment, ABadControllerIsRefused) {
+  const std::string two = std::string(kController) + std::string(kController).substr(13);
+  for (const auto& [text, part] :
+       {std::pair<std::string, const char*>{replaced(kController, "unit: mm}", "unit: V}"), "\"V\""},
+        {replaced(kController, "sensor: place", "sensor: plase"), "mean place?"},
+        {two, "a second controller of motor drive"}}) {
+    const std::string message = input_error([&, &bad = text] { read(good_experiment() + bad); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
 struct BadExperimentInput {
   const char* name;
   const char* what;

@@ -27,6 +27,7 @@ using validation::UnexplainedForce;
 
 /// The force that the final model does not explain, where the inverse model can tell.
 void print_unexplained(const std::vector<UnexplainedForce>& forces) {
+  constexpr double kShown = 0.02;
   if (forces.empty()) {
     return;
   }
@@ -35,7 +36,9 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
   for (const UnexplainedForce& f : forces) {
     std::string shares;
     for (const validation::Dependence& d : f.dependences) {
-      shares += fmt::format("{} {:.0f} %  ", d.variable, 100.0 * d.share);
+      if (d.share >= kShown) {
+        shares += fmt::format("{}{} {:.0f} %  ", d.variable, d.of_size ? " (size)" : "", 100.0 * d.share);
+      }
     }
     rows.push_back({f.trial, f.motor, fmt::format("{:.3g} {}", f.rms, f.unit),
                     fmt::format("{:.1f} %", 100.0 * f.relative), f.words, shares});
@@ -76,7 +79,7 @@ void print_verdict(const Diagnosis& diagnosis) {
       fmt::print("\n");
     }
   }
-  if (diagnosis.accepted.empty()) {
+  if (diagnosis.accepted.empty() || last.held_out() <= 0.0) {
     return;
   }
   fmt::print(

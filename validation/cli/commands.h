@@ -24,6 +24,7 @@ void add_add(CLI::App& app, Outcome& outcome);
 void add_ladder(CLI::App& app, Outcome& outcome);
 /// `words`: the command line, for whoever wants to repeat it.
 void add_report(CLI::App& app, const std::vector<std::string>& words);
+void add_suggest(CLI::App& app, Outcome& outcome);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);

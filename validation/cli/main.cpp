@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_add(app, outcome);
     plumbline::cli::add_ladder(app, outcome);
     plumbline::cli::add_report(app, command_words(argc, argv));
+    plumbline::cli::add_suggest(app, outcome);
     plumbline::cli::add_new_trial(app, outcome);
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);

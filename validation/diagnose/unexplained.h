@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "validation/diagnose/dependence.h"
 #include "validation/diagnose/diagnose.h"
 
 namespace plumbline::validation {
-
-/// Mean of the unexplained force in bins of one variable.
-struct Dependence {
-  std::string variable;  ///< "position", "velocity", "direction", "load", "time", "motor angle"
-  std::string unit;
-  double share = 0.0;  ///< of the force's variance that the bins' means explain
-  std::vector<double> center, mean;
-};
 
 struct UnexplainedForce {
   std::string trial, motor, unit;
@@ -26,7 +19,7 @@ struct UnexplainedForce {
 };
 
 /// For every trial and motor for which the inverse model exists (no hidden states, every position measured).
-/// The force is recorded minus needed (inverse_model), about its mean; bins hold equal numbers of samples.
+/// The force is recorded minus needed (inverse_model), about its mean.
 std::vector<UnexplainedForce> unexplained_forces(const model::Model& model, const Data& data);
 
 }  // namespace plumbline::validation

@@ -31,6 +31,9 @@ json parameter_json(const FreeParameter& parameter, const FittedParameter& fitte
            {"source", "found in these trials"},
            {"assumed", false},
            {"doubts", json::array()}};
+  if (given == nullptr && std::isfinite(parameter.deviation)) {
+    out["source"] = "stated in the model, with this uncertainty";
+  }
   if (given != nullptr) {
     out["given"] = json_number(given->value);
     out["source"] = given->source;

@@ -44,6 +44,36 @@ double quantile(const Eigen::VectorXd& values, double share) {
   return sorted[static_cast<std::size_t>(at)];
 }
 
+/// Which switches are closed at a sample: "flight", or their names joined.
+std::string contact_at(const Trial& trial, Eigen::Index k) {
+  std::string closed;
+  for (const SwitchRecord& one : trial.switches) {
+    if (one.values[k] != 0.0) {
+      closed += (closed.empty() ? "" : " + ") + one.name;
+    }
+  }
+  return closed.empty() ? "flight" : closed;
+}
+
+void add_contact(const Trial& trial, PhaseTable& table) {
+  if (trial.switches.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  std::vector<std::size_t> kinds;
+  for (Eigen::Index k = 0; k < trial.samples(); ++k) {
+    const std::string name = contact_at(trial, k);
+    const auto known = std::find(names.begin(), names.end(), name);
+    kinds.push_back(static_cast<std::size_t>(known - names.begin()));
+    if (known == names.end()) {
+      names.push_back(name);
+    }
+  }
+  add_group(
+      "contact", names, trial.samples(), [&](Eigen::Index k) { return kinds[static_cast<std::size_t>(k)]; },
+      table);
+}
+
 void add_events(const Trial& trial, PhaseTable& table) {
   if (trial.events.empty()) {
     return;
@@ -70,6 +100,7 @@ void add_events(const Trial& trial, PhaseTable& table) {
 PhaseTable phases_of(const Trial& trial, const Measured& channel) {
   PhaseTable table;
   const Eigen::Index n = trial.samples();
+  add_contact(trial, table);
   add_events(trial, table);
   add_group(
       "time", {"early", "middle", "late"}, n,

@@ -11,7 +11,7 @@ namespace plumbline::validation {
 
 /// Samples of one kind. Phases of one group share out all samples of a trial.
 struct Phase {
-  std::string group;  ///< "between events", "time", "speed", "direction"
+  std::string group;  ///< "contact", "between events", "time", "speed", "direction"
   std::string name;   ///< "early", "slow", "reversing"
 };
 
@@ -21,6 +21,7 @@ struct PhaseTable {
   std::vector<std::vector<Eigen::Index>> members;  ///< by phase: sample indices
 };
 
+/// contact, where contact switches were recorded: which of them are closed (by their names, or flight).
 /// time: thirds of the trial (early, middle, late). speed: thirds of the samples by the channel's |velocity|
 /// (slow, medium, fast). direction: velocity below minus a tenth of its root mean square, between, above
 /// (backward, turning, forward). between events, where the trial has events: the stretches from one event to

@@ -1,5 +1,6 @@
 #include "validation/report/report.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "simulator/model/robot_file.h"
@@ -17,6 +18,14 @@ using nlohmann::json;
 
 model::Model fitted(const Stage& stage) {
   return with_values(stage.model, stage.parameters, stage.estimate.theta);
+}
+
+/// Without the effects that change nothing: openings for numbers that stayed as stated.
+model::Model without_null_effects(model::Model model) {
+  const auto is_null = [](const model::EffectUse& use) { return use.law->is_null(use.numbers().data()); };
+  model.effects.erase(std::remove_if(model.effects.begin(), model.effects.end(), is_null),
+                      model.effects.end());
+  return model;
 }
 
 /// A role without trials has no error.
@@ -92,7 +101,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
               {"diagnosis", content.diagnosis},
               {"unexplained", json::array()},
               {"estimates", nullptr},
-              {"values", model_json(fitted(last))},
+              {"values", model_json(without_null_effects(fitted(last)))},
               {"repeat", repeat_json(content.repetition, content.given, data.trials)}};
   for (const Rung& rung : content.ladder) {
     report["ladder"].push_back(scores_json(rung, data));

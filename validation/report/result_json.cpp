@@ -53,6 +53,8 @@ nlohmann::json to_json(const UnexplainedForce& force) {
     json["dependences"].push_back({{"variable", d.variable},
                                    {"unit", d.unit},
                                    {"share", d.share},
+                                   {"of_size", d.of_size},
+                                   {"repeats", d.repeats},
                                    {"center", d.center},
                                    {"mean", d.mean}});
   }

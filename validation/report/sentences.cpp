@@ -14,21 +14,33 @@ std::string names_of(const std::vector<Finding>& findings) {
   return names;
 }
 
+/// The error that counts and its role: held-out where there is such a trial (0: there is none).
+struct Judged {
+  std::string role;
+  double error = 0.0;
+};
+
+Judged judged(double train, double held_out) {
+  return held_out > 0.0 ? Judged{"held-out", held_out} : Judged{"train", train};
+}
+
+Judged judged(const Rung& rung) { return judged(rung.train(), rung.held_out()); }
+
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& diagnosis) {
-  const Rung& last = diagnosis.ladder.back();
+  const Judged last = judged(diagnosis.ladder.back());
   switch (diagnosis.verdict) {
     case Verdict::nothing_missing:
       return fmt::format(
-          "Nothing is missing: the model predicts the held-out motion to {:.2f} times what the sensors "
+          "Nothing is missing: the model predicts the {} motion to {:.2f} times what the sensors "
           "alone would leave.",
-          last.held_out());
+          last.role, last.error);
     case Verdict::unexplained:
       return fmt::format(
-          "Unexplained: the held-out error stays {:.2f} times the floor, and no effect of the catalogue "
+          "Unexplained: the {} error stays {:.2f} times the floor, and no effect of the catalogue "
           "explains it.{}",
-          last.held_out(),
+          last.role, last.error,
           diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
     case Verdict::missing:
       break;
@@ -37,11 +49,16 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
 }
 
 std::string finding_sentences(const Finding& finding, Verdict verdict) {
+  const Judged before = judged(finding.train_before, finding.held_out_before);
+  const Judged after = judged(finding.train_after, finding.held_out_after);
+  const std::string train = after.role == "train" ? ""
+                                                  : fmt::format(" (train {:.2f} to {:.2f})",
+                                                                finding.train_before, finding.train_after);
   return fmt::format(
-      "{}: {} at {}. With it the held-out error falls from {:.2f} to {:.2f} times the floor "
-      "(train {:.2f} to {:.2f}); it was chosen in {:.0f} % of the resamples.",
-      verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, finding.held_out_before,
-      finding.held_out_after, finding.train_before, finding.train_after, 100.0 * finding.selected_share);
+      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}; it was chosen in "
+      "{:.0f} % of the resamples.",
+      verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
+      before.error, after.error, train, 100.0 * finding.selected_share);
 }
 
 std::string summary(const Diagnosis& diagnosis) {
@@ -51,22 +68,23 @@ std::string summary(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::missing && diagnosis.accepted.size() == 1) {
     return finding_sentences(diagnosis.accepted.front(), diagnosis.verdict);
   }
-  const double first = diagnosis.ladder.front().held_out();
-  const double last = diagnosis.ladder.back().held_out();
+  const Judged first = judged(diagnosis.ladder.front());
+  const Judged last = judged(diagnosis.ladder.back());
   if (diagnosis.verdict == Verdict::missing) {
     return fmt::format(
-        "Missing: {}. With them the held-out error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
+        "Missing: {}. With them the {} error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
         "the squared error above the floor stays unexplained.",
-        names_of(diagnosis.accepted), first, last, 100.0 * diagnosis.unexplained_share);
+        names_of(diagnosis.accepted), last.role, first.error, last.error,
+        100.0 * diagnosis.unexplained_share);
   }
   if (diagnosis.accepted.empty()) {
     return verdict_sentence(diagnosis);
   }
   return fmt::format(
-      "Unexplained: the held-out error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
+      "Unexplained: the {} error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
       "but {} not the whole answer.",
-      last, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "", first,
-      diagnosis.accepted.size() == 1 ? "is" : "are");
+      last.role, last.error, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "",
+      first.error, diagnosis.accepted.size() == 1 ? "is" : "are");
 }
 
 }  // namespace plumbline::validation

@@ -23,9 +23,15 @@ double four_digits(double value) {
   return std::round(value * unit) / unit;
 }
 
+/// Sums of squared residuals of a window's channels; those of contact switches behind them are left out.
+Eigen::VectorXd channel_squares(const Stage& stage, const Data& data, std::size_t w) {
+  const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
+  return stage.estimate.square[w].head(static_cast<Eigen::Index>(trial.measured.size()));
+}
+
 /// Root mean square over the channels of a window, in units of the floor.
 double window_ratio(const Stage& stage, const Data& data, std::size_t w) {
-  return std::sqrt(stage.estimate.square[w].mean() / static_cast<double>(data.windows[w].count));
+  return std::sqrt(channel_squares(stage, data, w).mean() / static_cast<double>(data.windows[w].count));
 }
 
 /// Indices of a trial's windows (of all trials when it is negative), those with the largest error first.
@@ -56,7 +62,7 @@ json windows_json(const Data& data, std::size_t trial, const std::vector<Drawn>&
     for (const Drawn& one : drawn) {
       ratios.push_back(four_digits(window_ratio(*one.stage, data, w)));
       json by_channel = json::array();
-      for (const double square : one.stage->estimate.square[w]) {
+      for (const double square : channel_squares(*one.stage, data, w)) {
         by_channel.push_back(four_digits(std::sqrt(square / static_cast<double>(window.count))));
       }
       channels.push_back(by_channel);
@@ -119,7 +125,7 @@ json shares_json(const PhaseTable& table, Eigen::Index samples) {
 std::size_t first_channel(const Data& data, std::size_t trial) {
   std::size_t first = 0;
   for (std::size_t t = 0; t < trial; ++t) {
-    first += data.trials[t].measured.size();
+    first += data.trials[t].measured.size() + data.trials[t].switches.size();
   }
   return first;
 }
@@ -153,6 +159,35 @@ json channel_json(const Data& data, std::size_t trial, std::size_t channel, cons
                              {"density", floats(lines.density)}});
   }
   return out;
+}
+
+/// Errors of the instants at which contact switches close and open.
+json switches_json(const Data& data, std::size_t trial, const std::vector<Drawn>& drawn) {
+  const Trial& of = data.trials[trial];
+  json list = json::array();
+  for (std::size_t r = 0; r < of.switches.size(); ++r) {
+    const std::size_t place = first_channel(data, trial) + of.measured.size() + r;
+    json one{{"sensor", of.switches[r].name},
+             {"unit", "s"},
+             {"floor", drawn.front().comparison.channels[place].floor},
+             {"models", json::array()}};
+    for (const Drawn& model : drawn) {
+      one["models"].push_back(
+          {{"rms", model.comparison.channels[place].rms}, {"ratio", model.comparison.channels[place].ratio}});
+    }
+    list.push_back(one);
+  }
+  return list;
+}
+
+json contacts_json(const Trial& trial) {
+  json list = json::array();
+  for (const ContactEvent& event : trial.contact_events) {
+    list.push_back({{"time", event.time},
+                    {"contact_switch", trial.switches[static_cast<std::size_t>(event.record)].name},
+                    {"kind", event.touchdown ? "touchdown" : "lift-off"}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -199,6 +234,8 @@ json trial_json(const Data& data, std::size_t trial, const std::vector<Drawn>& d
            {"period", of.period},
            {"samples", of.samples()},
            {"events", of.events},
+           {"contact_events", contacts_json(of)},
+           {"switches", switches_json(data, trial, drawn)},
            {"points", points},
            {"time", floats(thinned_time(of.time, blocks))},
            {"windows", windows_json(data, trial, drawn)},

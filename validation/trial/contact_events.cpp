@@ -7,7 +7,7 @@
 namespace plumbline::validation {
 namespace {
 
-/// First samples of each run of equal values.
+/// First samples of each run of equal values but the first.
 std::vector<Eigen::Index> changes_of(const Eigen::VectorXd& values) {
   std::vector<Eigen::Index> changes;
   for (Eigen::Index k = 1; k < values.size(); ++k) {
@@ -18,17 +18,18 @@ std::vector<Eigen::Index> changes_of(const Eigen::VectorXd& values) {
   return changes;
 }
 
-/// Without pairs of changes that follow each other within `shortest` samples.
-std::vector<Eigen::Index> without_bounces(const std::vector<Eigen::Index>& changes, Eigen::Index shortest) {
-  std::vector<Eigen::Index> kept;
-  for (const Eigen::Index k : changes) {
-    if (!kept.empty() && k - kept.back() < shortest) {
-      kept.pop_back();
-    } else {
-      kept.push_back(k);
+/// The record with each run of `value` that is shorter than `fewest` samples turned over; runs at the
+/// record's ends may be longer than it shows and stay.
+Eigen::VectorXd without_short(const Eigen::VectorXd& values, double value, Eigen::Index fewest) {
+  Eigen::VectorXd smooth = values;
+  const std::vector<Eigen::Index> changes = changes_of(values);
+  for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
+    const Eigen::Index length = changes[i + 1] - changes[i];
+    if (values[changes[i]] == value && length < fewest) {
+      smooth.segment(changes[i], length).setConstant(1.0 - value);
     }
   }
-  return kept;
+  return smooth;
 }
 
 }  // namespace
@@ -39,8 +40,10 @@ std::vector<ContactEvent> contact_events(const Trial& trial, double shortest) {
   const auto fewest = static_cast<Eigen::Index>(std::lround(shortest / trial.period));
   std::vector<ContactEvent> events;
   for (std::size_t r = 0; r < trial.switches.size(); ++r) {
-    const Eigen::VectorXd& values = trial.switches[r].values;
-    for (const Eigen::Index k : without_bounces(changes_of(values), fewest)) {
+    // Openings first: a foot that lands and bounces has landed when it first touched.
+    const Eigen::VectorXd landed = without_short(trial.switches[r].values, 0.0, fewest);
+    const Eigen::VectorXd values = without_short(landed, 1.0, fewest);
+    for (const Eigen::Index k : changes_of(values)) {
       events.push_back(
           {trial.time[k] - 0.5 * trial.period, k, static_cast<int>(r), values[k] > values[k - 1]});
     }

@@ -80,8 +80,7 @@ std::vector<Command> read_commands(const YamlNode& node, const Model& model, con
   return commands;
 }
 
-std::vector<Controller> read_controllers(const YamlNode& node, const Model& model,
-                                         const Sampling& sampling) {
+std::vector<Controller> read_controllers(const YamlNode& node, const Model& model, const Sampling& sampling) {
   std::vector<Controller> controllers;
   for (const YamlNode& item : node.items()) {
     item.allow_keys({"kind", "motor", "sensor", "reference", "position_gain", "velocity_gain",
@@ -114,16 +113,13 @@ void join(const Model& model, Experiment& experiment) {
   }
 }
 
-}  // namespace
-
-Experiment read_experiment(const std::string& path, const Model& model) {
-  const YamlNode root = YamlNode::load(path);
+Experiment experiment_from(const YamlNode& root, const Model& model) {
   check_version(root, "experiment/1");
   root.allow_keys({"plumbline", "title", "role", "duration", "sample_period", "start", "locked", "commands",
                    "controllers"});
   const Sampling sampling = read_sampling(root);
   Experiment experiment;
-  experiment.file = path;
+  experiment.file = root.file();
   experiment.title = root.at("title").text();
   experiment.role = read_role(root.at("role"));
   experiment.duration = sampling.duration();
@@ -144,6 +140,16 @@ Experiment read_experiment(const std::string& path, const Model& model) {
   }
   join(model, experiment);
   return experiment;
+}
+
+}  // namespace
+
+Experiment read_experiment(const std::string& path, const Model& model) {
+  return experiment_from(YamlNode::load(path), model);
+}
+
+Experiment parse_experiment(const std::string& text, const std::string& name, const Model& model) {
+  return experiment_from(YamlNode::parse(text, name), model);
 }
 
 }  // namespace plumbline::validation

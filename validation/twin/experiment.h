@@ -34,5 +34,7 @@ struct Experiment {
 /// expected) on unknown keys, kinds, motors and coordinates, wrong units, impossible shapes, frequencies that
 /// the sample period cannot show, fewer than 20 samples and a duration that is not a whole number of periods.
 Experiment read_experiment(const std::string& path, const model::Model& model);
+/// The same from text; `name` stands for the file in messages.
+Experiment parse_experiment(const std::string& text, const std::string& name, const model::Model& model);
 
 }  // namespace plumbline::validation

@@ -44,6 +44,20 @@ function line(label, name, more) {
 
 const timeSeries = { label: "time, s", value: (u, value) => (value === null ? "–" : value.toFixed(4)) };
 
+/** Stretches in which any contact switch is closed. */
+function stances(trial) {
+  const open = new Set();
+  const list = [];
+  for (const event of trial.contact_events) {
+    const before = open.size;
+    event.kind === "touchdown" ? open.add(event.contact_switch) : open.delete(event.contact_switch);
+    if (before === 0 && open.size > 0) list.push([event.time, Infinity]);
+    if (before > 0 && open.size === 0) list[list.length - 1][1] = event.time;
+    if (list.length === 0) list.push([-Infinity, event.time]);  // it began in stance
+  }
+  return list;
+}
+
 /** Behind the curves: alternate windows or stretches between events, the worst windows, events. */
 function shade(u) {
   const { left, top, width, height } = u.bbox;
@@ -59,10 +73,12 @@ function shade(u) {
   if ((windows[0].to - windows[0].from) / (u.scales.x.max - u.scales.x.min) * width > 8 * devicePixelRatio) {
     windows.forEach((at, i) => { if (i % 2) paint(at.from, at.to, colour("window")); });
   }
+  stances(trial).forEach(([from, to]) => paint(from, to, colour("stance")));
   if (state.window) paint(state.window.from, state.window.to, colour("worst"));
   context.fillStyle = colour("rival");
   for (const worst of worstWindows()) {
-    if (worst.trial === state.trial) context.fillRect(x(worst.from), top, x(worst.to) - x(worst.from) - devicePixelRatio, 2.5 * devicePixelRatio);
+    if (worst.trial !== state.trial || worst.to < u.scales.x.min || worst.from > u.scales.x.max) continue;
+    context.fillRect(x(worst.from), top, x(worst.to) - x(worst.from) - devicePixelRatio, 2.5 * devicePixelRatio);
   }
   context.strokeStyle = colour("event");
   context.lineWidth = 1.5 * devicePixelRatio;
@@ -152,6 +168,8 @@ function drawCharts() {
   const box = $("charts");
   box.replaceChildren();
   trialShown().channels.forEach((_, c) => addChannel(box, c));
+  box.append(...trialShown().switches.map((one) => make("p", { class: "note" },
+    `Contact switch ${one.sensor}: touchdown and lift-off are predicted to ${number(1e3 * one.models[state.model].rms)} ms rms, ${ratio(one.models[state.model].ratio)} times the floor of ${number(1e3 * one.floor)} ms.`)));
   applyRange();
 }
 

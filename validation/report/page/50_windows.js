@@ -67,7 +67,10 @@ function drawStrip() {
   });
   svg.append(makeSvg("line", { class: "floor", "stroke-width": 1.4, x1: left, x2: right, y1: y(1), y2: y(1) }),
     makeSvg("text", { class: "soft", x: left - 6, y: y(1) + 4, "text-anchor": "end" }, "floor"));
+  let below = y(1);
   for (const tick of logTicks(low, high).filter((value) => value > 1.6 && Number.isInteger(Math.log10(value)))) {
+    if (below - y(tick) < 13) continue;
+    below = y(tick);
     svg.append(makeSvg("text", { class: "soft", x: left - 6, y: y(tick) + 4, "text-anchor": "end" }, number(tick)));
   }
   box.replaceChildren(svg);

@@ -40,8 +40,11 @@ function drawHeat() {
     make("tr", { class: "trial" }, make("th", { colspan: columns.length + 1 }, `${trial.name} (${trial.role})`)),
     ...trial.channels.map((channel) => make("tr", {}, make("th", { scope: "row" }, channel.sensor), columns.map((column) => cellOf(t, channel, column)))),
   ]);
-  $("heat").replaceChildren(make("table", {}, make("thead", {}, head), make("tbody", {}, rows)),
+  const scrolled = $("heat").firstChild ? $("heat").firstChild.scrollTop : 0;
+  $("heat").replaceChildren(make("div", { class: "screenful", tabindex: "0", role: "region", "aria-label": "Error by channel and phase" },
+    make("table", {}, make("thead", {}, head), make("tbody", {}, rows))),
     make("p", { class: "scale" }, "floor", make("i", {}), `${ratio(most)} times the floor`));
+  $("heat").firstChild.scrollTop = scrolled;
 }
 
 const spectra = [];
@@ -55,6 +58,18 @@ function drawSpectra() {
 }
 
 function isPower(tick) { return tick !== null && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6; }
+
+/** 1, 2, ... 9 times the powers of ten between low and high (uPlot's own search takes seconds for small numbers). */
+function decades(low, high) {
+  const ticks = [];
+  for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e) {
+    for (let f = 1; f < 10; ++f) {
+      const tick = f * Math.pow(10, e);
+      if (tick >= low && tick <= high) ticks.push(tick);
+    }
+  }
+  return ticks;
+}
 
 function addSpectrum(box, channel) {
   // What is smaller than a hundredth of the floor is nothing; a channel that was held has nothing at all.
@@ -71,6 +86,7 @@ function addSpectrum(box, channel) {
   box.append(figure);
   const parts = axes(`${channel.unit}/√Hz`, "Hz");
   parts[0].values = (u, ticks) => ticks.map((tick) => (isPower(tick) ? `${number(tick)} Hz` : ""));
+  for (const axis of parts) axis.splits = (u, i, low, high) => decades(low, high);
   parts[1].values = (u, ticks) => ticks.map((tick) => (isPower(tick) ? number(tick) : ""));
   spectra.push(new uPlot({
     width: Math.max(300, figure.clientWidth), height: 230, padding: [8, 12, 0, 0],

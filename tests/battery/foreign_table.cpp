@@ -1,0 +1,33 @@
+#include "tests/battery/cases.h"
+
+namespace plumbline::battery {
+
+// Strengths leave the model as it is with a held-out error of about 10 to 30 floors (`battery --bare`).
+
+const std::vector<Row>& leg_bench_foreign_rows() {
+  static const std::vector<Row> kRows{
+      {"sticky_spot", "thigh", "level=0.3,centre=0.349"},
+      {"drying_bearing", "mLA", "damping=2e-4"},
+      {"pressing_friction", "mLS", "damping=5e-4,waves=0.5"},
+      {"thickening_oil", "mLA", "drag=2e-8"},
+      {"relaxing_spring", "leg_angle", "stiffness=3"},
+      {"detent", "shin", "force=0.4,centre=-0.349"},
+      {"two_waves", "mLS", "force=0.02"},
+      {"heating_motor", "mLA", "fade=0.04"},
+      {"saturating_iron", "mLS", "bend=0.007"},
+      {"dead_zone", "mLA", "zone=0.02"},
+      {"uneven_bridge", "mLS", "share=0.007"},
+  };
+  return kRows;
+}
+
+const std::vector<Row>& pendulum_foreign_rows() {
+  static const std::vector<Row> kRows{
+      {"sticky_spot", "shoulder", "level=0.025,centre=0,speed=0.005"},
+      {"heating_motor", "drive", "fade=0.3"},
+      {"two_waves", "drive", "force=8e-4"},
+  };
+  return kRows;
+}
+
+}  // namespace plumbline::battery

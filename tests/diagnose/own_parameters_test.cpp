@@ -1,0 +1,103 @@
+// Robots that differ from their model within what it states, and robots that do not.
+#include "validation/diagnose/own_parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/model/robot_file.h"
+#include "validation/diagnose/candidates.h"
+#include "validation/diagnose/diagnose.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+const std::vector<std::string> kScatter{"torque_constant_error@drive:scale=1.04",
+                                        "rotor_inertia@drive:inertia=-2e-6", "added_mass@arm:mass=0.01",
+                                        "viscous@drive:damping=2e-5"};
+
+model::Model pendulum() {
+  return model::read_model("tests/robots/pendulum/model.yaml", effects::Catalogue::all());
+}
+
+Data twins(const model::Model& bare, const std::vector<std::string>& hidden) {
+  model::Model robot = bare;
+  for (const std::string& one : hidden) {
+    robot.effects.push_back(parse_effect(one, bare, effects::Catalogue::all()));
+  }
+  std::vector<Trial> trials;
+  for (const char* name : {"chirp", "steps", "multisine"}) {
+    const Experiment experiment =
+        read_experiment(std::string("tests/robots/pendulum/experiments/") + name + ".yaml", bare);
+    trials.push_back(twin(robot, experiment, {}));
+    trials.back().name = trials.back().file = name;
+  }
+  return Data(std::move(trials), {});
+}
+
+Diagnosis diagnosed(const std::vector<std::string>& hidden) {
+  const model::Model bare = pendulum();
+  const Data data = twins(bare, hidden);
+  return diagnose(bare, effects::Catalogue::all(), data, {},
+                  [](const std::string& /*what*/, double /*fraction*/) {});
+}
+
+Stage given_stage(const model::Model& model, const Data& data) {
+  PredictorPool pool(model, data);
+  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
+}
+
+TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {
+  const model::Model bare = pendulum();
+  const model::Model open = with_stated_errors(bare);
+  std::vector<std::string> labels;
+  for (const FreeParameter& parameter : stated_parameters(open, 3.0)) {
+    labels.push_back(parameter.label);
+  }
+  EXPECT_THAT(labels,
+              testing::UnorderedElementsAre("viscous@drive:damping", "torque_constant_error@drive:scale",
+                                            "rotor_inertia@drive:inertia", "added_mass@arm:mass"));
+  const Data data = twins(bare, {});
+  EXPECT_NEAR(given_stage(open, data).estimate.scores.held_out,
+              given_stage(bare, data).estimate.scores.held_out, 1e-6);
+}
+
+TEST(OwnParameters, DataSpeakForTheStatedNumbersOnlyWhereTheyAreTrue) {
+  const model::Model bare = pendulum();
+  const Data exact = twins(bare, {});
+  const Data other = twins(bare, kScatter);
+  EXPECT_GT(evidence_for_stated(given_stage(bare, exact), exact, 3.0), std::log(100.0));
+  EXPECT_LT(evidence_for_stated(given_stage(bare, other), other, 3.0), 0.0);
+}
+
+TEST(OwnParameters, AnHonestScatterIsNoMissingEffect) {
+  const Diagnosis d = diagnosed(kScatter);
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(d.accepted.empty());
+  EXPECT_GT(d.ladder.front().held_out(), 2.0);
+  for (const OwnParameter& own : own_values(d.final_stage)) {
+    EXPECT_LE(std::abs(own.shift()), 3.0) << own.label;
+  }
+}
+
+TEST(OwnParameters, AnEffectIsFoundThroughTheScatter) {
+  std::vector<std::string> hidden = kScatter;
+  hidden.push_back("coulomb@drive:level=2e-4,smoothing_speed=0.1");
+  const Diagnosis d = diagnosed(hidden);
+  EXPECT_EQ(d.verdict, Verdict::missing);
+  ASSERT_EQ(d.accepted.size(), 1U);
+  EXPECT_EQ(d.accepted[0].effect, "coulomb");
+  EXPECT_NEAR(d.accepted[0].parameters[0].value, 2e-4, 2e-5);
+}
+
+TEST(OwnParameters, OneNumberAloneIsNamedWhereAllOthersAreAsStated) {
+  const Diagnosis d = diagnosed({"torque_constant_error@drive:scale=1.04"});
+  ASSERT_EQ(d.accepted.size(), 1U);
+  EXPECT_EQ(d.accepted[0].effect, "torque_constant_error");
+  EXPECT_NEAR(d.accepted[0].parameters[0].value, 1.04, 1e-3);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

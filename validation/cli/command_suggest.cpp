@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "simulator/model/known_effects.h"
+#include "validation/cli/commands.h"
+#include "validation/cli/files.h"
+#include "validation/cli/inputs.h"
+#include "validation/cli/output.h"
+#include "validation/suggest/suggest.h"
+
+namespace plumbline::cli {
+namespace {
+
+using validation::Separation;
+using validation::Suggestions;
+
+std::string seconds_text(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{:.1f} s", seconds) : "never";
+}
+
+nlohmann::json to_json(const Suggestions& suggestions) {
+  nlohmann::json json{{"refused", suggestions.refused},
+                      {"explanations", nlohmann::json::array()},
+                      {"experiments", nlohmann::json::array()}};
+  for (const validation::Explanation& one : suggestions.explanations) {
+    json["explanations"].push_back(
+        {{"effect", one.name}, {"train", one.scores.train}, {"held_out", one.scores.held_out}});
+  }
+  for (const Separation& one : suggestions.experiments) {
+    json["experiments"].push_back(
+        {{"name", one.name},
+         {"share_of_reach", one.share},
+         {"error", one.error},
+         {"seconds", std::isfinite(one.seconds) ? nlohmann::json(one.seconds) : nlohmann::json()}});
+  }
+  return json;
+}
+
+void print(const Suggestions& suggestions) {
+  fmt::print("Explanations of these trials (error in units of the floor):\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::Explanation& one : suggestions.explanations) {
+    rows.push_back(
+        {one.name, fmt::format("{:.3f}", one.scores.train), fmt::format("{:.3f}", one.scores.held_out)});
+  }
+  print_table({"effect", "train", "held-out"}, rows);
+  fmt::print(
+      "\nWhat would tell them apart, best first ({} that would leave the range of the motion are left "
+      "out):\n\n",
+      suggestions.refused);
+  rows.clear();
+  for (const Separation& one : suggestions.experiments) {
+    rows.push_back({one.name, fmt::format("{:.0f} %", 100.0 * one.share), fmt::format("{:.2f}", one.error),
+                    seconds_text(one.seconds)});
+  }
+  print_table({"experiment", "of the reach", "the wrong one leaves", "tells after"}, rows);
+  if (!suggestions.experiments.empty() && !std::isfinite(suggestions.experiments.front().seconds)) {
+    fmt::print("\nNone of these tells them apart: on this robot, with these sensors, they are one answer.\n");
+  }
+}
+
+}  // namespace
+
+void add_suggest(CLI::App& app, Outcome& /*outcome*/) {
+  struct Options {
+    Inputs inputs;
+    std::vector<std::string> between;
+    std::string save;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("suggest", "Which experiment would tell effects apart that explain the same trials");
+  add_trial_inputs(*command, options->inputs);
+  command->add_option("--between", options->between, "effects at places, as diagnose names them")
+      ->required()
+      ->expected(2, 6)
+      ->type_name("EFFECT@WHERE");
+  command->add_option("--save", options->save, "write the best experiment to FILE")->type_name("FILE");
+  command->footer(
+      "Example:\n  plumbline suggest demo/siso_mLA demo/mimo --between preload@leg_angle torque_bias@mLA "
+      "--save next.yaml");
+  command->callback([options] {
+    check_writable(options->save);
+    const Loaded loaded = load(options->inputs, model::known_effects());
+    Suggestions suggestions;
+    {
+      ProgressLine progress;
+      suggestions = validation::suggest(loaded.model, model::known_effects(), *loaded.data, options->between,
+                                        progress.callback());
+    }
+    write_json(to_json(suggestions), options->inputs.json);
+    if (!options->save.empty() && !suggestions.experiments.empty()) {
+      write_text_atomically(options->save, suggestions.experiments.front().text);
+    }
+    print(suggestions);
+  });
+}
+
+}  // namespace plumbline::cli

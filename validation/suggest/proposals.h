@@ -1,0 +1,46 @@
+// Experiments that a robot could do next: shapes of commands within what it has done before.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/twin/experiment.h"
+
+namespace plumbline::validation {
+
+/// An experiment and how it would be written in a file (docs/formats.md).
+struct Proposal {
+  std::string name;  ///< "mLA: fast chirp"
+  std::string text;
+  Experiment experiment;
+};
+
+/// What trials have shown that a robot stands: for each motor the mean of its command, which holds it against
+/// gravity, and the largest distance from it; for each channel where it has been.
+struct Envelope {
+  struct Motor {
+    std::string name, unit;
+    double mean = 0.0, reach = 0.0;
+  };
+  struct Channel {
+    std::string sensor;
+    double low = 0.0, high = 0.0;
+  };
+  std::vector<Motor> motors;
+  std::vector<Channel> channels;
+  std::vector<Start> start;  ///< middle of the motion, by the coordinates that a sensor shows
+  std::vector<std::string> locked;
+  double duration = 0.0, period = 0.0;
+};
+
+/// Throws InputError when no command changes in any trial.
+Envelope envelope_of(const model::Model& model, const std::vector<Trial>& trials);
+
+/// Chirps, multisines, steps, pulses, ramps and noise, of each motor alone and of all together, each with
+/// `share` of the commands' reach.
+std::vector<Proposal> proposals(const model::Model& model, const Envelope& envelope, double share);
+
+/// True when the trial stays where the robot has been, with that range once more to spare at either side.
+bool stays_within(const Envelope& envelope, const Trial& trial);
+
+}  // namespace plumbline::validation
