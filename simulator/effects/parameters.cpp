@@ -37,6 +37,8 @@ Parameter smoothing_speed() {
 
 Parameter rest() { return any("rest", "{position}", "position from which the law measures"); }
 
+bool is_rest(const Parameter& parameter) { return parameter.name == rest().name; }
+
 Parameter fixed_side() {
   return fixed("side", "1", "+1: acts above the position, -1: acts below it", 1.0, -1.0, 1.0);
 }

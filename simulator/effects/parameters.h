@@ -28,6 +28,8 @@ Parameter fixed(const std::string& name, const std::string& unit, const std::str
 Parameter smoothing_speed();
 /// A position from which a law measures: of no effect while the law has no strength; standard value 0.
 Parameter rest();
+/// Is this the parameter that rest() declares?
+bool is_rest(const Parameter& parameter);
 /// +1 or -1: where the law acts, above or below a position.
 Parameter fixed_side();
 

@@ -58,14 +58,15 @@ TEST_P(Help, ExampleUsesOnlyOptionsThatExist) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("effects", "check", "simulate", "compare", "fit", "diagnose", "add",
-                                         "ladder", "report", "new-trial", "twin", "hop", "validate", "render"),
+                                         "ladder", "suggest", "report", "new-trial", "twin", "hop", "validate",
+                                         "render"),
                          name_of);
 
 TEST(Program, ListsEveryCommand) {
   const Outcome outcome = run({"--help"}, "/");
   EXPECT_EQ(outcome.status, 0);
   for (const char* command : {"effects", "check", "simulate", "compare", "fit", "diagnose", "add", "ladder",
-                              "report", "new-trial", "twin", "hop", "validate", "render"}) {
+                              "suggest", "report", "new-trial", "twin", "hop", "validate", "render"}) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  ") + command + " "));
   }
 }

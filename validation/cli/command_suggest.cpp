@@ -34,10 +34,19 @@ nlohmann::json to_json(const Suggestions& suggestions) {
          {"error", one.error},
          {"seconds", std::isfinite(one.seconds) ? nlohmann::json(one.seconds) : nlohmann::json()}});
   }
+  json["inseparable"] = nlohmann::json::array();
+  for (const auto& [one, other] : suggestions.inseparable) {
+    json["inseparable"].push_back({one, other});
+  }
   return json;
 }
 
-void print(const Suggestions& suggestions) {
+/// The best experiment is first: when it separates nothing, none does.
+bool any_separable(const Suggestions& suggestions) {
+  return !suggestions.experiments.empty() && suggestions.experiments.front().seconds > 0.0;
+}
+
+void print_explanations(const Suggestions& suggestions) {
   fmt::print("Explanations of these trials (error in units of the floor):\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const validation::Explanation& one : suggestions.explanations) {
@@ -45,18 +54,29 @@ void print(const Suggestions& suggestions) {
         {one.name, fmt::format("{:.3f}", one.scores.train), fmt::format("{:.3f}", one.scores.held_out)});
   }
   print_table({"effect", "train", "held-out"}, rows);
+}
+
+void print_experiments(const Suggestions& suggestions) {
   fmt::print(
       "\nWhat would tell them apart, best first ({} that would leave the range of the motion are left "
       "out):\n\n",
       suggestions.refused);
-  rows.clear();
+  std::vector<std::vector<std::string>> rows;
   for (const Separation& one : suggestions.experiments) {
     rows.push_back({one.name, fmt::format("{:.0f} %", 100.0 * one.share), fmt::format("{:.2f}", one.error),
                     seconds_text(one.seconds)});
   }
   print_table({"experiment", "of the reach", "the wrong one leaves", "tells after"}, rows);
-  if (!suggestions.experiments.empty() && !std::isfinite(suggestions.experiments.front().seconds)) {
-    fmt::print("\nNone of these tells them apart: on this robot, with these sensors, they are one answer.\n");
+}
+
+void print(const Suggestions& suggestions) {
+  print_explanations(suggestions);
+  if (any_separable(suggestions)) {
+    print_experiments(suggestions);
+  }
+  for (const auto& [one, other] : suggestions.inseparable) {
+    fmt::print("\nNo experiment tells {} from {}: on this robot, with these sensors, they are one answer.\n",
+               one, other);
   }
 }
 
@@ -90,7 +110,7 @@ void add_suggest(CLI::App& app, Outcome& /*outcome*/) {
                                         progress.callback());
     }
     write_json(to_json(suggestions), options->inputs.json);
-    if (!options->save.empty() && !suggestions.experiments.empty()) {
+    if (!options->save.empty() && any_separable(suggestions)) {
       write_text_atomically(options->save, suggestions.experiments.front().text);
     }
     print(suggestions);

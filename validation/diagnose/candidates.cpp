@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/ground_change.h"
+#include "simulator/effects/parameters.h"
 
 namespace plumbline::validation {
 namespace {
@@ -260,6 +261,20 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
                     parameter.lower,
                     parameter.upper,
                     typical[p]});
+  }
+  return free;
+}
+
+std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, const model::EffectUse& use,
+                                                  int effect, bool angular) {
+  constexpr double kReach = 4.0;  // half ranges of the motion
+  const effects::Scales& scales = candidate.scales;
+  std::vector<FreeParameter> free = free_parameters_of(use, effect, scales, angular);
+  for (FreeParameter& one : free) {
+    if (effects::is_rest(use.law->declaration().parameters[static_cast<std::size_t>(one.id.parameter)])) {
+      one.lower = std::max(one.lower, scales.center - kReach * scales.position);
+      one.upper = std::min(one.upper, scales.center + kReach * scales.position);
+    }
   }
   return free;
 }

@@ -32,6 +32,11 @@ model::EffectUse make_use(const Candidate& candidate, const effects::Values& val
 std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
                                               const effects::Scales& scales, bool angular);
 
+/// The same for a use of a candidate that is searched: its rest lies near the motion. Seen from far away
+/// every law of a distance is a constant, and would be another law under this name.
+std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, const model::EffectUse& use,
+                                                  int effect, bool angular);
+
 Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters);
 
 /// The model with the parameters set.

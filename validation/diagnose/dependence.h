@@ -24,8 +24,8 @@ struct ForceSamples {
   bool angular = true;
 };
 
-/// All dependences, strongest first, those of the size counted half. The motor's angle is that of the position; its share is that of the best
-/// harmonic a cos(n x) + b sin(n x), n = 1 to 60, by least squares.
+/// All dependences, strongest first, those of the size counted half. The motor's angle is that of the
+/// position; its share is that of the best harmonic a cos(n x) + b sin(n x), n = 1 to 60, by least squares.
 std::vector<Dependence> dependences_of(const ForceSamples& samples);
 
 /// The strongest in words: "grows over the trial", "repeats 12 times in a turn of the motor", "is there only

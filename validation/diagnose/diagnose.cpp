@@ -240,6 +240,16 @@ class Diagnoser {
     diagnosis.final_stage = fitted;
   }
 
+  /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
+  static void leave_out_accepted(const Diagnosis& diagnosis, std::vector<Candidate>& candidates) {
+    const auto is_named = [&](const Candidate& candidate) {
+      return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(), [&](const Finding& finding) {
+        return finding.effect == candidate.law->declaration().name && finding.at == candidate.at;
+      });
+    };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_named), candidates.end());
+  }
+
   bool step(Diagnosis& diagnosis, int round) {
     Stage& stage = diagnosis.final_stage;
     std::vector<Candidate> candidates;
@@ -247,6 +257,7 @@ class Diagnoser {
       PredictorPool pool(stage.model, data_);
       candidates = list_candidates(pool, catalogue_, stage.parameters, stage.estimate);
     }
+    leave_out_accepted(diagnosis, candidates);
     const Data quick = without_stiffness(stage, data_);
     const std::vector<Hypothesis> hypotheses = screen(stage, candidates, quick, progress_);
     const std::vector<Refit> refits = refit(stage, candidates, hypotheses, quick, options_, progress_);

@@ -114,8 +114,8 @@ std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Ca
     const Candidate& candidate = candidates[static_cast<std::size_t>(all[h].candidate)];
     model.effects.push_back(make_use(candidate, all[h].start));
     const bool angular = model.place_is_angular(candidate.place, candidate.at);
-    for (FreeParameter& parameter : free_parameters_of(
-             model.effects.back(), static_cast<int>(model.effects.size()) - 1, candidate.scales, angular)) {
+    for (FreeParameter& parameter : searched_parameters_of(
+             candidate, model.effects.back(), static_cast<int>(model.effects.size()) - 1, angular)) {
       own[h].push_back(static_cast<Eigen::Index>(parameters.size()));
       parameters.push_back(std::move(parameter));
     }
@@ -264,8 +264,8 @@ Extended extend(const Stage& stage, const Candidate& candidate, const effects::V
   extended.model.effects.push_back(make_use(candidate, values));
   const bool angular = stage.model.place_is_angular(candidate.place, candidate.at);
   for (FreeParameter& parameter :
-       free_parameters_of(extended.model.effects.back(), static_cast<int>(extended.model.effects.size()) - 1,
-                          candidate.scales, angular)) {
+       searched_parameters_of(candidate, extended.model.effects.back(),
+                              static_cast<int>(extended.model.effects.size()) - 1, angular)) {
     extended.parameters.push_back(std::move(parameter));
   }
   extended.theta = values_of(extended.model, extended.parameters);

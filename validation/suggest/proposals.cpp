@@ -152,8 +152,9 @@ void widen(Envelope& envelope, const Trial& trial) {
 
 }  // namespace
 
-Envelope envelope_of(const model::Model& model, const std::vector<Trial>& trials) {
+Envelope envelope_of(const std::vector<Trial>& trials, const std::vector<Start>& start) {
   Envelope envelope;
+  envelope.start = start;
   for (const Trial& trial : trials) {
     widen(envelope, trial);
     envelope.period = trial.period;
@@ -175,12 +176,6 @@ Envelope envelope_of(const model::Model& model, const std::vector<Trial>& trials
     });
     if (always) {
       envelope.locked.push_back(lock.at);
-    }
-  }
-  for (const Measured& measured : trials.front().measured) {
-    const model::Sensor& sensor = *model.find_sensor(measured.sensor);
-    if (model.find_coordinate(sensor.measures) != nullptr) {
-      envelope.start.push_back({sensor.measures, measured.values[0]});
     }
   }
   return envelope;

@@ -28,13 +28,13 @@ struct Envelope {
   };
   std::vector<Motor> motors;
   std::vector<Channel> channels;
-  std::vector<Start> start;  ///< middle of the motion, by the coordinates that a sensor shows
+  std::vector<Start> start;
   std::vector<std::string> locked;
   double duration = 0.0, period = 0.0;
 };
 
 /// Throws InputError when no command changes in any trial.
-Envelope envelope_of(const model::Model& model, const std::vector<Trial>& trials);
+Envelope envelope_of(const std::vector<Trial>& trials, const std::vector<Start>& start);
 
 /// Chirps, multisines, steps, pulses, ramps and noise, of each motor alone and of all together, each with
 /// `share` of the commands' reach.

@@ -94,11 +94,11 @@ class Player {
   Player(const std::vector<Explanation>& explanations, const Envelope& envelope, const Data& like)
       : explanations_(explanations), envelope_(envelope), like_(like) {}
 
-  /// The separation that a proposal brings; false when the motion leaves the range.
+  /// How a proposal separates each pair; false when the motion leaves the range.
   bool play(const Proposal& proposal, Separation& separation) const {
     separation.name = proposal.name;
     separation.text = proposal.text;
-    separation.error = kInfinite;
+    separation.pairs.clear();
     for (std::size_t right = 0; right < explanations_.size(); ++right) {
       const Trial trial = twin(explanations_[right].model, proposal.experiment, {1, 1e-7, true});
       if (!stays_within(envelope_, trial)) {
@@ -110,7 +110,7 @@ class Player {
       const Estimate truth = left_by(explanations_[right], data, false);
       for (std::size_t wrong = 0; wrong < explanations_.size(); ++wrong) {
         if (wrong != right) {
-          hold_against(truth, left_by(explanations_[wrong], data, true), separation);
+          hold_against(right, wrong, truth, left_by(explanations_[wrong], data, true), separation.pairs);
         }
       }
     }
@@ -118,15 +118,61 @@ class Player {
   }
 
  private:
-  void hold_against(const Estimate& right, const Estimate& wrong, Separation& separation) const {
-    separation.error = std::min(separation.error, wrong.scores.train);
-    separation.seconds = std::max(separation.seconds, seconds_to_tell(wrong, right, like_.predict.window));
+  /// Whichever of the two is true, the other one must fail.
+  void hold_against(std::size_t right, std::size_t wrong, const Estimate& truth, const Estimate& other,
+                    std::vector<PairSeparation>& pairs) const {
+    const PairSeparation found{std::min(right, wrong), std::max(right, wrong), other.scores.train,
+                               seconds_to_tell(other, truth, like_.predict.window)};
+    for (PairSeparation& pair : pairs) {
+      if (pair.one == found.one && pair.other == found.other) {
+        pair.error = std::min(pair.error, found.error);
+        pair.seconds = std::max(pair.seconds, found.seconds);
+        return;
+      }
+    }
+    pairs.push_back(found);
   }
 
   const std::vector<Explanation>& explanations_;
   const Envelope& envelope_;
   const Data& like_;
 };
+
+/// Where the first trial begins, by all coordinates of the model.
+std::vector<Start> start_of(const model::Model& model, const Data& data) {
+  const Window& first = data.windows.front();
+  Predictor predictor(model, data.trials[static_cast<std::size_t>(first.trial)], data.predict);
+  const Eigen::VectorXd x = predictor.initial_state(first);
+  std::vector<Start> start;
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    start.push_back({coordinate.name, predictor.plant().position_of(coordinate.name, x.data())});
+  }
+  return start;
+}
+
+/// Pairs that no experiment separates are set aside; of the others the worst counts.
+void weigh(Suggestions& suggestions) {
+  std::vector<Separation>& experiments = suggestions.experiments;
+  const std::size_t pairs = experiments.empty() ? 0 : experiments.front().pairs.size();
+  for (std::size_t p = 0; p < pairs; ++p) {
+    const bool separable = std::any_of(experiments.begin(), experiments.end(), [&](const Separation& one) {
+      return std::isfinite(one.pairs[p].seconds);
+    });
+    if (!separable) {
+      const PairSeparation& pair = experiments.front().pairs[p];
+      suggestions.inseparable.emplace_back(suggestions.explanations[pair.one].name,
+                                           suggestions.explanations[pair.other].name);
+      continue;
+    }
+    for (Separation& one : experiments) {
+      one.error = one.seconds > 0.0 ? std::min(one.error, one.pairs[p].error) : one.pairs[p].error;
+      one.seconds = std::max(one.seconds, one.pairs[p].seconds);
+    }
+  }
+  std::stable_sort(experiments.begin(), experiments.end(), [](const Separation& a, const Separation& b) {
+    return a.seconds != b.seconds ? a.seconds < b.seconds : a.error > b.error;
+  });
+}
 
 }  // namespace
 
@@ -137,7 +183,7 @@ Suggestions suggest(const model::Model& model, const effects::Catalogue& catalog
   }
   Suggestions suggestions;
   suggestions.explanations = explain(model, catalogue, data, names, progress);
-  const Envelope envelope = envelope_of(model, data.trials);
+  const Envelope envelope = envelope_of(data.trials, start_of(model, data));
   const Player player(suggestions.explanations, envelope, data);
   const std::size_t count = proposals(model, envelope, 1.0).size();
   for (std::size_t p = 0; p < count; ++p) {
@@ -160,10 +206,7 @@ Suggestions suggest(const model::Model& model, const effects::Catalogue& catalog
     }
     suggestions.refused += played ? 0 : 1;
   }
-  std::stable_sort(suggestions.experiments.begin(), suggestions.experiments.end(),
-                   [](const Separation& a, const Separation& b) {
-                     return a.seconds != b.seconds ? a.seconds < b.seconds : a.error > b.error;
-                   });
+  weigh(suggestions);
   return suggestions;
 }
 

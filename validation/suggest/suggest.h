@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/diagnose/diagnose.h"
@@ -18,18 +19,28 @@ struct Explanation {
   Scores scores;
 };
 
-/// How an experiment tells explanations apart: the pair that it separates worst counts.
+/// Two explanations, by their places in the list, and how an experiment tells them apart.
+struct PairSeparation {
+  std::size_t one = 0, other = 0;
+  double error = 0.0;    ///< what the wrong one leaves after a refit, floors (1: cannot be told)
+  double seconds = 0.0;  ///< of such data until the mean difference is three standard errors; infinite: never
+};
+
+/// How an experiment tells explanations apart: of the pairs that any experiment separates, the worst counts.
 struct Separation {
   std::string name, text;  ///< of the proposal; text: its file
   double share = 0.0;      ///< of the reach that the motion's range allowed
-  double error = 0.0;      ///< what the wrong explanation leaves after a refit, floors (1: cannot be told)
+  std::vector<PairSeparation> pairs;
+  double error = 0.0;    ///< what the wrong explanation leaves after a refit, floors (1: cannot be told)
   double seconds = 0.0;  ///< of such data until the mean difference is three standard errors; infinite: never
 };
 
 struct Suggestions {
   std::vector<Explanation> explanations;
   std::vector<Separation> experiments;  ///< best first
-  int refused = 0;                      ///< proposals that would leave the range of the motion
+  /// Pairs of names that no experiment separates: one answer under two names.
+  std::vector<std::pair<std::string, std::string>> inseparable;
+  int refused = 0;  ///< proposals that would leave the range of the motion
 };
 
 /// Explains the trials by each of the named effects ("coulomb@mLA"), plays every proposal on each explanation
