@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "simulator/model/kinds.h"
 #include "simulator/trace/error.h"
@@ -103,25 +104,6 @@ std::string head(const model::Model& model, const Envelope& envelope, const std:
   return text + "commands:\n";
 }
 
-Proposal propose(const model::Model& model, const Envelope& envelope, const Family& family,
-                 const std::string& who, const std::vector<std::size_t>& moving, double share) {
-  Proposal proposal;
-  proposal.name = who + ": " + family.name;
-  proposal.text = head(model, envelope, proposal.name);
-  for (std::size_t m = 0; m < envelope.motors.size(); ++m) {
-    const Envelope::Motor& motor = envelope.motors[m];
-    proposal.text += fmt::format("  {}:\n    - {{kind: constant, value: {:.6g}, unit: {}}}\n", motor.name,
-                                 motor.mean, motor.unit);
-    const auto place = std::find(moving.begin(), moving.end(), m);
-    if (place != moving.end()) {
-      proposal.text += family.write(share * motor.reach, envelope.duration,
-                                    static_cast<double>(place - moving.begin()), motor.unit);
-    }
-  }
-  proposal.experiment = parse_experiment(proposal.text, proposal.name, model);
-  return proposal;
-}
-
 void widen(Envelope& envelope, const Trial& trial) {
   for (const Command& command : trial.commands) {
     const double mean = command.values.mean();
@@ -181,23 +163,41 @@ Envelope envelope_of(const std::vector<Trial>& trials, const std::vector<Start>&
   return envelope;
 }
 
-std::vector<Proposal> proposals(const model::Model& model, const Envelope& envelope, double share) {
-  std::vector<Proposal> all;
+std::vector<Idea> ideas_for(const Envelope& envelope) {
   std::vector<std::size_t> together;
   for (std::size_t m = 0; m < envelope.motors.size(); ++m) {
     if (envelope.motors[m].reach > 0.0) {
       together.push_back(m);
     }
   }
-  for (const Family& family : kFamilies) {
+  std::vector<Idea> ideas;
+  for (std::size_t family = 0; family < std::size(kFamilies); ++family) {
+    const std::string shape = std::string(": ") + kFamilies[family].name;
     for (const std::size_t m : together) {
-      all.push_back(propose(model, envelope, family, envelope.motors[m].name, {m}, share));
+      ideas.push_back({envelope.motors[m].name + shape, family, {m}});
     }
     if (together.size() > 1) {
-      all.push_back(propose(model, envelope, family, "all motors", together, share));
+      ideas.push_back({"all motors" + shape, family, together});
     }
   }
-  return all;
+  return ideas;
+}
+
+Proposal propose(const model::Model& model, const Envelope& envelope, const Idea& idea, double share) {
+  Proposal proposal{idea.name, head(model, envelope, idea.name), {}};
+  for (std::size_t m = 0; m < envelope.motors.size(); ++m) {
+    const Envelope::Motor& motor = envelope.motors[m];
+    proposal.text += fmt::format("  {}:\n    - {{kind: constant, value: {:.6g}, unit: {}}}\n", motor.name,
+                                 motor.mean, motor.unit);
+    const auto place = std::find(idea.moving.begin(), idea.moving.end(), m);
+    if (place != idea.moving.end()) {
+      proposal.text +=
+          kFamilies[idea.family].write(share * motor.reach, envelope.duration,
+                                       static_cast<double>(place - idea.moving.begin()), motor.unit);
+    }
+  }
+  proposal.experiment = parse_experiment(proposal.text, proposal.name, model);
+  return proposal;
 }
 
 bool stays_within(const Envelope& envelope, const Trial& trial) {

@@ -8,10 +8,16 @@
 
 namespace plumbline::validation {
 
+/// Which shape, for which motors of an envelope.
+struct Idea {
+  std::string name;    ///< "mLA: fast chirp"
+  std::size_t family;  ///< chirps, multisine, steps, pulses, ramp, noise
+  std::vector<std::size_t> moving;
+};
+
 /// An experiment and how it would be written in a file (docs/formats.md).
 struct Proposal {
-  std::string name;  ///< "mLA: fast chirp"
-  std::string text;
+  std::string name, text;
   Experiment experiment;
 };
 
@@ -36,9 +42,11 @@ struct Envelope {
 /// Throws InputError when no command changes in any trial.
 Envelope envelope_of(const std::vector<Trial>& trials, const std::vector<Start>& start);
 
-/// Chirps, multisines, steps, pulses, ramps and noise, of each motor alone and of all together, each with
-/// `share` of the commands' reach.
-std::vector<Proposal> proposals(const model::Model& model, const Envelope& envelope, double share);
+/// Every shape for each motor alone and for all together.
+std::vector<Idea> ideas_for(const Envelope& envelope);
+
+/// The idea with `share` of the commands' reach.
+Proposal propose(const model::Model& model, const Envelope& envelope, const Idea& idea, double share);
 
 /// True when the trial stays where the robot has been, with that range once more to spare at either side.
 bool stays_within(const Envelope& envelope, const Trial& trial);

@@ -185,16 +185,16 @@ Suggestions suggest(const model::Model& model, const effects::Catalogue& catalog
   suggestions.explanations = explain(model, catalogue, data, names, progress);
   const Envelope envelope = envelope_of(data.trials, start_of(model, data));
   const Player player(suggestions.explanations, envelope, data);
-  const std::size_t count = proposals(model, envelope, 1.0).size();
-  for (std::size_t p = 0; p < count; ++p) {
+  const std::vector<Idea> ideas = ideas_for(envelope);
+  for (std::size_t i = 0; i < ideas.size(); ++i) {
+    progress("playing " + ideas[i].name,
+             0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(ideas.size()));
     bool played = false;
     for (double share = 1.0; share > kLeastShare && !played; share *= 0.5) {
-      const Proposal proposal = proposals(model, envelope, share)[p];
-      progress("playing " + proposal.name, 0.1 + 0.9 * static_cast<double>(p) / static_cast<double>(count));
       Separation separation;
       separation.share = share;
       try {
-        played = player.play(proposal, separation);
+        played = player.play(propose(model, envelope, ideas[i], share), separation);
       } catch (const Stopped&) {
         throw;
       } catch (const std::runtime_error&) {
