@@ -165,7 +165,7 @@ std::vector<Line> scoreboard(const Summary& s, const Targets& t) {
        fmt::format("{}", t.after), median(s.after) <= t.after},
       {"95 % intervals that hold the truth", share_text(s.intervals),
        percent(t.intervals_from) + " to " + percent(t.intervals_to),
-       s.intervals.of == 0 || (intervals >= t.intervals_from && intervals <= t.intervals_to)},
+       s.intervals.of < kFewIntervals || (intervals >= t.intervals_from && intervals <= t.intervals_to)},
       {"seconds for a case, median", fmt::format("{:.1f}", median(s.seconds)), fmt::format("{}", t.seconds),
        median(s.seconds) <= t.seconds}};
 }
