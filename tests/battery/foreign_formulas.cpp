@@ -20,13 +20,25 @@ struct ForceFormula {
   std::function<double(const Motion&, double state, const double* p)> state_rate;
 };
 
-class FormulaForce final : public effects::ForceLaw {
+/// What these laws share: no search ever begins at them.
+template <class Kind>
+class Foreign : public Kind {
+ public:
+  explicit Foreign(Declaration declaration) : declaration_(std::move(declaration)) {}
+  const Declaration& declaration() const override { return declaration_; }
+  Values typical(const effects::Scales& /*scales*/) const override { return this->null_values(); }
+  std::vector<Values> starts(const effects::Scales& /*scales*/) const override {
+    return {this->null_values()};
+  }
+
+ private:
+  Declaration declaration_;
+};
+
+class FormulaForce final : public Foreign<effects::ForceLaw> {
  public:
   FormulaForce(Declaration declaration, ForceFormula formula)
-      : declaration_(std::move(declaration)), formula_(std::move(formula)) {}
-  const Declaration& declaration() const override { return declaration_; }
-  Values typical(const effects::Scales& /*scales*/) const override { return null_values(); }
-  std::vector<Values> starts(const effects::Scales& /*scales*/) const override { return {null_values()}; }
+      : Foreign(std::move(declaration)), formula_(std::move(formula)) {}
   double force(const Motion& m, const double* state, const double* p) const override {
     return formula_.force(m, state_count() > 0 ? state[0] : 0.0, p);
   }
@@ -37,7 +49,6 @@ class FormulaForce final : public effects::ForceLaw {
   }
 
  private:
-  Declaration declaration_;
   ForceFormula formula_;
 };
 
@@ -46,13 +57,10 @@ struct TorqueFormula {
   std::function<double(double command, double state, const double* p)> state_rate;
 };
 
-class FormulaTorque final : public effects::ActuatorLaw {
+class FormulaTorque final : public Foreign<effects::ActuatorLaw> {
  public:
   FormulaTorque(Declaration declaration, TorqueFormula formula)
-      : declaration_(std::move(declaration)), formula_(std::move(formula)) {}
-  const Declaration& declaration() const override { return declaration_; }
-  Values typical(const effects::Scales& /*scales*/) const override { return null_values(); }
-  std::vector<Values> starts(const effects::Scales& /*scales*/) const override { return {null_values()}; }
+      : Foreign(std::move(declaration)), formula_(std::move(formula)) {}
   double torque(double commanded, const double* state, const double* p) const override {
     return formula_.torque(commanded, state_count() > 0 ? state[0] : 0.0, p);
   }
@@ -63,7 +71,6 @@ class FormulaTorque final : public effects::ActuatorLaw {
   }
 
  private:
-  Declaration declaration_;
   TorqueFormula formula_;
 };
 
@@ -137,6 +144,42 @@ void add_elasticities(Laws& laws) {
                    nullptr}));
 }
 
+/// Of the hopper: its ground and its rail.
+void add_grounds_and_rails(Laws& laws) {
+  laws.push_back(std::make_shared<const FormulaForce>(
+      declare("fading_ground", "a ground that gets softer over the trial",
+              "f = -share*min(age/time, 1)*stiffness*max(ground - x, 0)^1.5; age_rate = 1", Place::coordinate,
+              {effects::any("share", "1", "of the stiffness that is lost in the end"),
+               effects::positive("stiffness", "N/m^1.5", "of the ground at first", 2e6),
+               effects::positive("time", "s", "after which it is lost", 4.0),
+               effects::fixed("ground", "m", "x where the foot touches", 0.4, 0.0, 10.0)},
+              {"age"}),
+      ForceFormula{[](const Motion& m, double age, const double* p) {
+                     return -p[0] * std::min(age / p[2], 1.0) * p[1] *
+                            std::pow(std::max(p[3] - m.position, 0.0), 1.5);
+                   },
+                   [](const Motion&, double, const double*) { return 1.0; }}));
+  laws.push_back(std::make_shared<const FormulaForce>(
+      declare("warming_friction", "friction that grows with the heat it makes",
+              "f = -level*(1 + heat)*tanh(v/0.003); heat_rate = gain*|v|", Place::coordinate,
+              {effects::non_negative("level", "{force}", "friction when cold"),
+               effects::non_negative("gain", "1/{position}", "rise for each metre of way")},
+              {"heat"}),
+      ForceFormula{[](const Motion& m, double heat, const double* p) {
+                     return -p[0] * (1.0 + heat) * std::tanh(m.velocity / 0.003);
+                   },
+                   [](const Motion& m, double, const double* p) { return p[1] * std::abs(m.velocity); }}));
+  laws.push_back(std::make_shared<const FormulaForce>(
+      declare("rail_magnets", "a force that repeats along the way", "f = amplitude*sin(2*pi*x/pitch)",
+              Place::coordinate,
+              {effects::any("amplitude", "{force}", "largest force"),
+               effects::fixed("pitch", "{position}", "way after which it repeats", 0.02, 1e-4, 1.0)}),
+      ForceFormula{[](const Motion& m, double, const double* p) {
+                     return p[0] * std::sin(2.0 * effects::kPi * m.position / p[1]);
+                   },
+                   nullptr}));
+}
+
 void add_actuators(Laws& laws) {
   laws.push_back(std::make_shared<const FormulaTorque>(
       declare("heating_motor", "a torque constant that fades with the heat of the winding",
@@ -161,11 +204,12 @@ void add_actuators(Laws& laws) {
 
 }  // namespace
 
-Laws foreign_formulas() {
+Laws foreign_laws() {
   Laws laws;
   add_frictions(laws);
   add_elasticities(laws);
   add_actuators(laws);
+  add_grounds_and_rails(laws);
   return laws;
 }
 

@@ -1,4 +1,5 @@
-// Further laws that no catalogue has, each a formula of a place's motion or of a motor's command.
+// Laws that no catalogue has, each a formula of a place's motion or of a motor's command:
+// what a diagnosis must call unexplained.
 #pragma once
 
 #include <memory>
@@ -8,6 +9,6 @@
 
 namespace plumbline::battery {
 
-std::vector<std::shared_ptr<const effects::Law>> foreign_formulas();
+std::vector<std::shared_ptr<const effects::Law>> foreign_laws();
 
 }  // namespace plumbline::battery

@@ -30,9 +30,10 @@ ValidateInputs mabel() {
   return inputs;
 }
 
-const Verdict& verdict_of(const Validation& done, const std::string& measure) {
-  return *std::find_if(done.verdicts.begin(), done.verdicts.end(),
-                       [&](const Verdict& verdict) { return verdict.published.measure->name == measure; });
+const PublishedVerdict& verdict_of(const Validation& done, const std::string& measure) {
+  return *std::find_if(done.verdicts.begin(), done.verdicts.end(), [&](const PublishedVerdict& verdict) {
+    return verdict.published.measure->name == measure;
+  });
 }
 
 TEST(Validate, MeasuresWhatWasRunAndSaysWhatWasNot) {
@@ -50,7 +51,7 @@ TEST(Validate, MeasuresWhatWasRunAndSaysWhatWasNot) {
   EXPECT_FALSE(verdict_of(done, "hops_tuned_rigid").simulated);
   // Twelve hops were asked for: that says nothing about 92, unless it fell.
   EXPECT_EQ(verdict_of(done, "hops").simulated.has_value(), done.run.fell);
-  const Verdict& travel = verdict_of(done, "travel");
+  const PublishedVerdict& travel = verdict_of(done, "travel");
   ASSERT_TRUE(travel.simulated);
   EXPECT_LT(travel.simulated->mean, -0.05);  // backward
   EXPECT_NEAR(verdict_of(done, "tower_turn").simulated->mean, travel.simulated->mean / 2.25, 1e-12);
@@ -60,7 +61,7 @@ TEST(Validate, MeasuresWhatWasRunAndSaysWhatWasNot) {
   EXPECT_EQ(done.shares[0].runs, 2);
   EXPECT_EQ(done.shares[1].runs, 2);
   const bool all = std::all_of(done.verdicts.begin(), done.verdicts.end(),
-                               [](const Verdict& v) { return !v.simulated || v.holds(); });
+                               [](const PublishedVerdict& v) { return !v.simulated || v.holds(); });
   EXPECT_EQ(done.holds(), all);
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <array>
 #include <cstdio>
 #include <stdexcept>
 
@@ -12,6 +11,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/platforms.h"
 #include "validation/hopping/hop_search.h"
 #include "validation/hopping/hopping_file.h"
 #include "validation/hopping/published.h"
@@ -37,7 +37,7 @@ struct Options {
   std::string published;
   bool sides = false;
   double width = 0.4;
-  std::vector<std::array<double, 3>> platforms;
+  Platforms platforms;
 };
 
 nlohmann::json to_json(const HopRun& run) {
@@ -206,18 +206,6 @@ void run_search(const Options& options, const model::Model& model, const control
   write_json(json, options.json);
 }
 
-contact::Terrain terrain_of(const Options& options) {
-  std::vector<contact::Platform> platforms;
-  for (const auto& [from, to, height] : options.platforms) {
-    platforms.push_back({from, to, height});
-  }
-  try {
-    return contact::Terrain(0.0, platforms);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("--platform: ") + error.what());
-  }
-}
-
 void run(Options options) {
   check_trace_file(options.out);
   check_writable(options.json);
@@ -234,7 +222,7 @@ void run(Options options) {
   integrate::Options& integrator = options.run.integrator;
   integrator.set_tolerance(integrator.relative_tolerance);
   options.run.stop = &stop_flag();
-  options.run.terrain = terrain_of(options);
+  options.run.terrain = terrain_of(options.platforms);
   if (options.search > 0) {
     run_search(options, model, config);
   } else if (options.starts > 1) {

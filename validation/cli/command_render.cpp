@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/platforms.h"
 #include "validation/replay/trial_motion.h"
 
 namespace plumbline::cli {
@@ -40,7 +40,7 @@ struct Options {
   bool measured = false, whole = false;
   double window = 0.5, slow = 1.0, rate = 60.0, exaggeration = 0.0;
   int strip = 0;
-  std::vector<std::array<double, 3>> platforms;
+  Platforms platforms;
 };
 
 /// What is drawn, and what must live as long as it is.
@@ -124,22 +124,11 @@ void check(const Options& options) {
   check_not_an_input(options.json, {options.trace, options.model});
 }
 
-contact::Terrain terrain_of(const Options& options) {
-  std::vector<contact::Platform> platforms;
-  for (const auto& [from, to, height] : options.platforms) {
-    platforms.push_back({from, to, height});
-  }
-  try {
-    return contact::Terrain(0.0, platforms);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("--platform: ") + error.what());
-  }
-}
-
 Scene from_trace(const Options& options) {
   Scene scene;
   scene.model = model::read_model(options.model, model::known_effects());
-  scene.plant = std::make_unique<model::Plant>(scene.model, std::vector<model::Lock>(), terrain_of(options));
+  scene.plant =
+      std::make_unique<model::Plant>(scene.model, std::vector<model::Lock>(), terrain_of(options.platforms));
   scene.motion = render::motion_from(read_table(options.trace), *scene.plant);
   return scene;
 }
@@ -150,7 +139,7 @@ Scene from_trial(const Options& options) {
   scene.model = model::read_model(file, model::known_effects());
   const validation::Trial trial = validation::read_trial(options.trial, scene.model, {options.data_folder});
   check_not_an_input(options.out, {trial.data_file, trial.file});
-  scene.plant = std::make_unique<model::Plant>(scene.model, trial.locks, terrain_of(options));
+  scene.plant = std::make_unique<model::Plant>(scene.model, trial.locks, terrain_of(options.platforms));
   const validation::TrialMotion motion =
       validation::trial_motion(scene.model, trial, {options.whole ? 0.0 : options.window, &stop_flag()});
   scene.motion = {motion.time, motion.predicted, motion.foot_forces, {}};

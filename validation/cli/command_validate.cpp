@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using validation::Published;
+using validation::PublishedVerdict;
 using validation::Validation;
-using validation::Verdict;
 
 struct Options {
   std::string folder, model, controller, tuned_rigid, json;
@@ -71,7 +71,7 @@ std::string published_text(const Published& published) {
   return value;
 }
 
-std::string simulated_text(const Verdict& verdict) {
+std::string simulated_text(const PublishedVerdict& verdict) {
   if (!verdict.simulated) {
     return "-";
   }
@@ -81,7 +81,7 @@ std::string simulated_text(const Verdict& verdict) {
   return mean + spread + unit_of(verdict.published);
 }
 
-std::string verdict_text(const Verdict& verdict) {
+std::string verdict_text(const PublishedVerdict& verdict) {
   if (!verdict.simulated) {
     return "not measured";
   }
@@ -93,7 +93,7 @@ std::string verdict_text(const Verdict& verdict) {
 
 void print(const Validation& done, long enough) {
   std::vector<std::vector<std::string>> rows;
-  for (const Verdict& verdict : done.verdicts) {
+  for (const PublishedVerdict& verdict : done.verdicts) {
     rows.push_back({verdict.published.name, published_text(verdict.published), simulated_text(verdict),
                     verdict_text(verdict), verdict.remark});
   }
@@ -113,7 +113,7 @@ void print(const Validation& done, long enough) {
       s.period, s.torque_mLA, s.torque_mLS, 1e3 * s.time_at_limit);
 }
 
-nlohmann::json to_json(const Verdict& verdict) {
+nlohmann::json to_json(const PublishedVerdict& verdict) {
   const Published& p = verdict.published;
   const double si = to_si_factor(p.quantity.unit);
   nlohmann::json json{{"name", p.name},
@@ -153,7 +153,7 @@ nlohmann::json to_json(const Validation& done) {
                       {"verdicts", nlohmann::json::array()},
                       {"shares", nlohmann::json::array()},
                       {"default_start", {{"hops", done.run.hops.size()}, {"end", done.run.end}}}};
-  for (const Verdict& verdict : done.verdicts) {
+  for (const PublishedVerdict& verdict : done.verdicts) {
     json["verdicts"].push_back(to_json(verdict));
   }
   for (const validation::Share& share : done.shares) {

@@ -42,7 +42,7 @@ Dependence depend(const std::string& variable, const std::string& unit, const Ei
   return dependence;
 }
 
-/// Share of y's variance that a cos(n x) + b sin(n x) + c leaves out of its residual.
+/// Share of y's variance that a cos(n x) + b sin(n x) + c explains, by least squares.
 double harmonic_share(const Eigen::VectorXd& x, const Eigen::VectorXd& y, int n) {
   Eigen::MatrixXd columns(x.size(), 3);
   columns.col(0) = (n * x.array()).cos();

@@ -60,7 +60,7 @@ Orbit look_for_orbit(const ValidateInputs& inputs, const ValidateOptions& option
   return find_orbit(inputs.model, inputs.controller, orbit);
 }
 
-Verdict of_hops(const Published& published, const Evidence& evidence, const HoppingConfig& config) {
+PublishedVerdict of_hops(const Published& published, const Evidence& evidence, const HoppingConfig& config) {
   std::vector<double> values;
   for (const Hop& hop : settled_hops(evidence.starts)) {
     values.push_back(measure_of(*published.measure, hop, config));
@@ -71,7 +71,7 @@ Verdict of_hops(const Published& published, const Evidence& evidence, const Hopp
   return {published, spread_of(values), ""};
 }
 
-Verdict of_runs(const Published& published, const Evidence& evidence, const HopRun& run) {
+PublishedVerdict of_runs(const Published& published, const Evidence& evidence, const HopRun& run) {
   if (published.measure->name == "hops") {
     const double hops = static_cast<double>(run.hops.size());
     if (!run.fell && hops < published.quantity.value) {
@@ -89,7 +89,7 @@ Verdict of_runs(const Published& published, const Evidence& evidence, const HopR
   return {published, spread_of(hops), fmt::format("from {} starts", hops.size())};
 }
 
-Verdict of_orbit(const Published& published, const std::optional<Orbit>& orbit) {
+PublishedVerdict of_orbit(const Published& published, const std::optional<Orbit>& orbit) {
   if (!orbit) {
     return {published, std::nullopt, "not asked for"};
   }
@@ -107,7 +107,7 @@ Verdict of_orbit(const Published& published, const std::optional<Orbit>& orbit) 
           fmt::format("{:.2f} with twice the step", twice)};
 }
 
-Verdict of_model(const Published& published, const model::Model& model) {
+PublishedVerdict of_model(const Published& published, const model::Model& model) {
   const std::string ratio =
       published.measure->name == "joint_angle_of_stretch_LA" ? "leg_angle" : "leg_shape";
   const model::Ratio* found = model.find_ratio(ratio + "_left");
@@ -117,8 +117,8 @@ Verdict of_model(const Published& published, const model::Model& model) {
   return {published, Spread{1.0 / std::abs(found->ratios.front().value), 0.0, 1}, ""};
 }
 
-Verdict judge(const Published& published, const ValidateInputs& inputs, const Evidence& evidence,
-              const Validation& done) {
+PublishedVerdict judge(const Published& published, const ValidateInputs& inputs, const Evidence& evidence,
+                       const Validation& done) {
   switch (published.measure->kind) {
     case Kind::of_a_hop:
       return of_hops(published, evidence, inputs.controller);
@@ -136,7 +136,7 @@ Verdict judge(const Published& published, const ValidateInputs& inputs, const Ev
 
 bool Validation::holds() const {
   return std::all_of(verdicts.begin(), verdicts.end(),
-                     [](const Verdict& verdict) { return !verdict.simulated || verdict.holds(); });
+                     [](const PublishedVerdict& verdict) { return !verdict.simulated || verdict.holds(); });
 }
 
 Validation validate(const ValidateInputs& inputs, const ValidateOptions& options,

@@ -34,7 +34,7 @@ struct ValidateInputs {
 };
 
 /// A published quantity and its simulated counterpart.
-struct Verdict {
+struct PublishedVerdict {
   Published published;
   std::optional<Spread> simulated;  ///< none: not measured in this run
   std::string remark;               ///< why not, or what to know about the number
@@ -49,7 +49,7 @@ struct Share {
 };
 
 struct Validation {
-  std::vector<Verdict> verdicts;
+  std::vector<PublishedVerdict> verdicts;
   std::vector<Share> shares;
   HopRun run;                ///< from the default start
   HopStatistics statistics;  ///< over the random starts

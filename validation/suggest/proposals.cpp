@@ -93,9 +93,8 @@ std::string head(const model::Model& model, const Envelope& envelope, const std:
   if (!envelope.start.empty()) {
     text += "start:\n";
     for (const Start& start : envelope.start) {
-      const bool angular = model::is_angular(model, start.coordinate);
       text += fmt::format("  {}: {{value: {:.6g}, unit: {}}}\n", start.coordinate, start.position,
-                          angular ? "rad" : "m");
+                          model::position_unit(model::is_angular(model, start.coordinate)));
     }
   }
   if (!envelope.locked.empty()) {
