@@ -205,6 +205,11 @@ std::string explanation(const Result& result) {
   text += fmt::format("    hidden   {}\n", result.with);
   add("ranking", result.ranking);
   add("leads", result.leads);
+  for (const validation::PairRow& row : result.pairs) {
+    text += fmt::format("    pair     {:<34} + {:<34} train {:9.3f} held-out {:9.3f}  {}\n",
+                        row.first.effect + "@" + row.first.at, row.second.effect + "@" + row.second.at,
+                        row.train_after, row.held_out_after, row.remark);
+  }
   return text;
 }
 

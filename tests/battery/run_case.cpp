@@ -123,6 +123,7 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
   result.visible = result.before >= kVisible;
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;
+  result.pairs = diagnosis.pairs;
   result.right = is_right(diagnosis, truth.hidden, result.one.kind);
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];

@@ -30,6 +30,7 @@ struct Result {
   double after = 0.0;  ///< held-out error with all that was accepted
   double seconds = 0.0;
   int asked = 0, inside = 0;  ///< parameters of rightly named effects; 95 % intervals that hold the truth
+  std::vector<validation::PairRow> pairs;  ///< tried together
   std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected
   std::string error;                                ///< why the case could not be run; empty otherwise
 };

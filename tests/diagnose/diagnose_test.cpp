@@ -1,53 +1,28 @@
-// The diagnosis on twins of MABEL's leg on the bench: nothing hidden, one effect hidden, and that effect
-// taken out of the catalogue.
+// The diagnosis on twins of MABEL's leg on the bench: nothing hidden and one effect hidden.
 #include "validation/diagnose/diagnose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulator/model/robot_file.h"
-#include "validation/twin/twin.h"
+#include "tests/diagnose/bench.h"
 
 namespace plumbline::validation {
 namespace {
 
-const char* const kRobot = "robots/mabel/";
-
-Data twins(const model::Model& bare, const effects::Catalogue& catalogue, const std::string& hidden) {
-  model::Model robot = bare;
-  if (!hidden.empty()) {
-    robot.effects.push_back(parse_effect(hidden, bare, catalogue));
-  }
-  std::vector<Trial> trials;
-  for (const char* name : {"siso_mLA", "siso_mLS", "mimo"}) {
-    const Experiment experiment =
-        read_experiment(std::string(kRobot) + "experiments/" + name + ".yaml", bare);
-    trials.push_back(twin(robot, experiment, {}));
-    trials.back().name = trials.back().file = name;
-  }
-  return Data(std::move(trials), {});
-}
-
-Diagnosis diagnosed(const std::string& hidden, const std::vector<std::string>& without) {
-  const effects::Catalogue all = effects::Catalogue::all();
-  const model::Model bare = model::read_model(std::string(kRobot) + "leg_bench.yaml", all);
-  const Data data = twins(bare, all, hidden);
-  effects::Catalogue catalogue = all;
-  for (const std::string& name : without) {
-    catalogue = catalogue.without(name);
-  }
-  return diagnose(bare, catalogue, data, {}, [](const std::string& /*what*/, double /*fraction*/) {});
+Diagnosis diagnosed(const std::vector<std::string>& hidden) {
+  return diagnose(bench(), effects::Catalogue::all(), bench_twins(hidden), {},
+                  [](const std::string& /*what*/, double /*fraction*/) {});
 }
 
 TEST(Diagnose, SaysNothingIsMissingOnTheModelsOwnData) {
-  const Diagnosis d = diagnosed("", {});
+  const Diagnosis d = diagnosed({});
   EXPECT_EQ(d.verdict, Verdict::nothing_missing);
   EXPECT_TRUE(d.accepted.empty());
   EXPECT_NEAR(d.ladder.back().held_out(), 1.0, 0.05);
 }
 
 TEST(Diagnose, NamesAHiddenActuatorLagAndItsValue) {
-  const Diagnosis d = diagnosed("actuator_lag@mLS:time_constant=0.002", {});
+  const Diagnosis d = diagnosed({"actuator_lag@mLS:time_constant=0.002"});
   ASSERT_EQ(d.accepted.size(), 1U);
   EXPECT_EQ(d.verdict, Verdict::missing);
   EXPECT_EQ(d.accepted[0].effect, "actuator_lag");

@@ -19,6 +19,7 @@ using validation::Diagnosis;
 using validation::Finding;
 using validation::Named;
 using validation::OwnParameter;
+using validation::PairRow;
 using validation::ParameterValue;
 using validation::RankRow;
 using validation::Verdict;
@@ -98,6 +99,20 @@ void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
   print_table({"effect", "at", "train", "held-out", "", "remark"}, rows);
 }
 
+/// Pairs that were tried together, the accepted one among them.
+void print_pairs(const std::vector<PairRow>& pairs) {
+  if (pairs.empty()) {
+    return;
+  }
+  fmt::print("\nTried two at once:\n\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const PairRow& r : pairs) {
+    rows.push_back({r.first.effect + "@" + r.first.at, r.second.effect + "@" + r.second.at,
+                    fmt::format("{:.3f}", r.train_after), fmt::format("{:.3f}", r.held_out_after), r.remark});
+  }
+  print_table({"one", "other", "train", "held-out", "remark"}, rows);
+}
+
 /// What the fit made of the numbers that the model states with an uncertainty.
 void print_own_parameters(const std::vector<OwnParameter>& parameters) {
   if (parameters.empty()) {
@@ -129,6 +144,7 @@ void print(const Diagnosis& diagnosis) {
     fmt::print("\nTried last and not accepted:\n\n");
     print_rows(diagnosis.leads, 6);
   }
+  print_pairs(diagnosis.pairs);
 }
 
 /// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.

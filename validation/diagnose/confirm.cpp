@@ -16,6 +16,7 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   result.candidate = hypothesis.candidate;
   result.extended = extend(stage, candidate, hypothesis.start);
   result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());
+  result.added = {static_cast<int>(result.extended.model.effects.size()) - 1};
   const Eigen::VectorXd theta = promised_theta(result.extended, hypothesis);
   // The promised values decide whether states are added, so the model must hold them before it is built.
   result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
@@ -69,31 +70,46 @@ bool on_bound(const FreeParameter& parameter, double value) {
   return value - parameter.lower < reach || parameter.upper - value < reach;
 }
 
-/// Change of the candidate's own parameters that the held-out windows alone would ask for, relative.
-double disagreement(const Refit& refit, const Data& data) {
+/// The parameters of one effect, and where they begin among all.
+struct OwnPart {
+  std::vector<FreeParameter> parameters;
+  Eigen::VectorXd theta;
+};
+
+OwnPart part_of(const Refit& refit, int effect) {
+  OwnPart part;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < refit.extended.parameters.size(); ++p) {
+    if (refit.extended.parameters[p].id.effect == effect) {
+      part.parameters.push_back(refit.extended.parameters[p]);
+      values.push_back(refit.estimate.theta[static_cast<Eigen::Index>(p)]);
+    }
+  }
+  part.theta = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return part;
+}
+
+/// Change of an added effect's parameters that the held-out windows alone would ask for, relative.
+double disagreement(const Refit& refit, int effect, const Data& data) {
   const std::vector<int> windows = data.windows_of(Role::held_out);
-  if (windows.empty()) {
+  const OwnPart own = part_of(refit, effect);
+  const Eigen::Index n = own.theta.size();
+  if (windows.empty() || n == 0) {
     return 0.0;
   }
-  const auto n = static_cast<Eigen::Index>(refit.extended.parameters.size());
-  const std::vector<FreeParameter> own(refit.extended.parameters.end() - refit.own,
-                                       refit.extended.parameters.end());
-  const Eigen::VectorXd theta = refit.estimate.theta;
-  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, theta), data);
-  const Eigen::VectorXd units = search_units(own, theta.tail(refit.own));
-  const std::vector<Reduced> reduced =
-      reduce(pool, windows, own, theta.tail(refit.own), refit.estimate.x0, units);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(refit.own, refit.own);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(refit.own);
-  for (const Reduced& one : reduced) {
+  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
+                     data);
+  const Eigen::VectorXd units = search_units(own.parameters, own.theta);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+  for (const Reduced& one : reduce(pool, windows, own.parameters, own.theta, refit.estimate.x0, units)) {
     H += one.H;
     g += one.g;
   }
   // Along the best-determined direction of the law: how strong the held-out motion wants the whole law.
-  Eigen::VectorXd direction(refit.own);
-  for (int p = 0; p < refit.own; ++p) {
-    const double t = theta[n - refit.own + p];
-    direction[p] = to_search(own[static_cast<std::size_t>(p)].scale, t) / units[p];
+  Eigen::VectorXd direction(n);
+  for (Eigen::Index p = 0; p < n; ++p) {
+    direction[p] = to_search(own.parameters[static_cast<std::size_t>(p)].scale, own.theta[p]) / units[p];
   }
   const double curvature = direction.dot(H * direction);
   return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
@@ -101,7 +117,7 @@ double disagreement(const Refit& refit, const Data& data) {
 
 /// Name of a parameter without which the law would be null and which cannot be told from its null value: play
 /// without a gap, a stretch without a compliance. Then something else about the law must have helped.
-std::string undecided(const Candidate& candidate, const Refit& refit, const Data& data) {
+std::string undecided(const Refit& refit, const Data& data) {
   constexpr double kDeviations = 2.0;
   PredictorPool pool(refit.extended.model, data);
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
@@ -109,19 +125,31 @@ std::string undecided(const Candidate& candidate, const Refit& refit, const Data
   // one.
   const Eigen::VectorXd deviations =
       parameter_deviations(pool, data.all_windows(), parameters, refit.estimate, nullptr);
-  const effects::Values values =
-      with_values(refit.extended.model, parameters, refit.estimate.theta).effects.back().numbers();
+  const model::Model fitted = with_values(refit.extended.model, parameters, refit.estimate.theta);
   for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {
+    const model::EffectUse& use = fitted.effects[static_cast<std::size_t>(parameters[p].id.effect)];
+    const effects::Values values = use.numbers();
     const auto own = static_cast<std::size_t>(parameters[p].id.parameter);
-    const double null = candidate.law->declaration().parameters[own].null_value;
+    const double null = use.law->declaration().parameters[own].null_value;
     effects::Values without = values;
     without[own] = null;
     const effects::Scale scale = parameters[p].scale;
     const double distance = std::abs(to_search(scale, values[own]) - to_search(scale, null));
     const double deviation =
         deviations[static_cast<Eigen::Index>(p)] / std::abs(search_slope(scale, values[own]));
-    if (candidate.law->is_null(without.data()) && distance < kDeviations * deviation) {
+    if (use.law->is_null(without.data()) && distance < kDeviations * deviation) {
       return parameters[p].label;
+    }
+  }
+  return "";
+}
+
+/// A lone parameter of an added effect that is on its bound; empty when there is none.
+std::string unphysical(const Refit& refit) {
+  for (const int effect : refit.added) {
+    const OwnPart own = part_of(refit, effect);
+    if (own.parameters.size() == 1 && on_bound(own.parameters.front(), own.theta[0])) {
+      return own.parameters.front().label;
     }
   }
   return "";
@@ -240,6 +268,25 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   return refits;
 }
 
+Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& second,
+                 const PairHypothesis& promise, const Data& data) {
+  const Extended with_first = extend(stage, first, promise.first.start);
+  Estimate unmoved = stage.estimate;
+  unmoved.theta = with_first.theta;
+  Hypothesis both = promise.second;
+  both.step = promise.step;
+  Refit result = refit_one({with_first.model, with_first.parameters, unmoved}, second, both, data, 8);
+  const auto effect = static_cast<int>(result.extended.model.effects.size());
+  result.added = {effect - 2, effect - 1};
+  result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());
+  return result;
+}
+
+Stage after(const Refit& refit) {
+  return {with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
+          refit.extended.parameters, refit.estimate};
+}
+
 std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
                                     const DiagnoseOptions& options) {
   std::mt19937_64 random(options.seed);
@@ -286,8 +333,8 @@ std::pair<double, double> resampled_error(const Refit& refit, Role role, const D
   return {errors[tail], errors[errors.size() - 1 - tail]};
 }
 
-std::string objection(const Stage& stage, const Candidate& candidate, const Refit& refit, double share,
-                      const Data& data, const DiagnoseOptions& options) {
+std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
+                      const DiagnoseOptions& options) {
   const Scores& before = stage.estimate.scores;
   const Scores& after = refit.estimate.scores;
   const bool judged = data.has(Role::held_out);
@@ -302,20 +349,18 @@ std::string objection(const Stage& stage, const Candidate& candidate, const Refi
   if (share < options.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
   }
-  for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
-       p < refit.extended.parameters.size(); ++p) {
-    const FreeParameter& parameter = refit.extended.parameters[p];
-    const double value = refit.estimate.theta[static_cast<Eigen::Index>(p)];
-    if (refit.own == 1 && on_bound(parameter, value)) {
-      return "unphysical: " + parameter.label + " is at its bound";
-    }
+  const std::string bound = unphysical(refit);
+  if (!bound.empty()) {
+    return "unphysical: " + bound + " is at its bound";
   }
   try {
-    const double apart = disagreement(refit, data);
-    if (apart > options.consistent) {
-      return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+    for (const int effect : refit.added) {
+      const double apart = disagreement(refit, effect, data);
+      if (apart > options.consistent) {
+        return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+      }
     }
-    const std::string open = undecided(candidate, refit, data);
+    const std::string open = undecided(refit, data);
     return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
   } catch (const Stopped&) {
     throw;

@@ -2,108 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "simulator/trace/error.h"
-#include "validation/diagnose/confirm.h"
+#include "validation/diagnose/choose.h"
+#include "validation/diagnose/findings.h"
+#include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
-#include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 namespace {
 
-/// The error that counts: held-out where there is one.
-double judged(const Scores& scores, const Data& data) {
-  return data.has(Role::held_out) ? scores.held_out : scores.train;
-}
-
 bool at_floor(const Scores& scores, const Data& data, const DiagnoseOptions& options) {
   return judged(scores, data) < options.at_floor && scores.train < options.at_floor;
-}
-
-/// Candidates in order of promise, refitted ones first with what they reached.
-std::vector<RankRow> rank(const std::vector<Candidate>& candidates, const std::vector<Hypothesis>& hypotheses,
-                          const std::vector<Refit>& refits) {
-  std::vector<RankRow> rows;
-  std::vector<bool> done(candidates.size(), false);
-  for (const Refit& refit : refits) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(refit.candidate)];
-    done[static_cast<std::size_t>(refit.candidate)] = true;
-    rows.push_back({candidate.law->declaration().name, candidate.at, refit.square(),
-                    refit.estimate.scores.held_out, refit.estimate.scores.train, true, ""});
-  }
-  for (const Hypothesis& hypothesis : hypotheses) {
-    const auto c = static_cast<std::size_t>(hypothesis.candidate);
-    if (!done[c]) {
-      done[c] = true;
-      rows.push_back({candidates[c].law->declaration().name, candidates[c].at, hypothesis.promised(),
-                      std::sqrt(hypothesis.promised_held_out), std::sqrt(hypothesis.promised_train), false,
-                      ""});
-    }
-  }
-  return rows;
-}
-
-/// Error of a refit that counts for choosing: train and held-out together.
-double together(const Refit& refit) { return std::sqrt(refit.square()); }
-
-/// How much a law takes for granted: its fitted parameters, then its choices and numerical constants.
-std::pair<int, int> complexity(const std::vector<Candidate>& candidates, const Refit& refit) {
-  return {refit.own, candidates[static_cast<std::size_t>(refit.candidate)].law->parameter_count()};
-}
-
-/// Refits that predict as well as the best, or nearly: a simpler law is named before them.
-std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < refits.size(); ++i) {
-    if (together(refits[i]) < (1.0 + options.simpler) * together(refits.front())) {
-      near.push_back(i);
-    }
-  }
-  return near;
-}
-
-/// Relative difference of squared errors that the searches themselves may leave.
-constexpr double kSame = 2e-3;
-
-/// What these data cannot tell from the named law: of no more parameters those that win in a fair share of
-/// resamples or leave the same error; of more parameters those that are surely better, if only by little.
-std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits, const Data& data,
-                                   const DiagnoseOptions& options) {
-  constexpr double kFair = 0.05;
-  std::vector<std::size_t> rivals;
-  for (std::size_t i = 0; i < refits.size(); ++i) {
-    if (i == named) {
-      continue;
-    }
-    const double wins = share_better(refits[i], refits[named], data, options);
-    const double ratio = refits[i].square() / refits[named].square();
-    const bool smaller = refits[i].own <= refits[named].own;
-    if (smaller ? wins > kFair || ratio < 1.0 + kSame : wins > 1.0 - kFair && ratio < 1.0 - kSame) {
-      rivals.push_back(i);
-    }
-  }
-  return rivals;
-}
-
-/// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
-/// would be stiffer than anything that the samples could show, and cost as much as all others together.
-Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 40.0;
-  constexpr double kTimesTheStage = 5.0;
-  constexpr double kEvaluationsOfStep = 3.0;
-  PredictorPool pool(stage.model, data);
-  double most = 0.0;
-  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
-    const long before = pool.evaluations();
-    pool.with(static_cast<int>(w), stage.parameters, stage.estimate.theta,
-              [&](Predictor& predictor) { predictor.residual(data.windows[w], stage.estimate.x0[w]); });
-    most = std::max(most, static_cast<double>(pool.evaluations() - before) /
-                              (kEvaluationsOfStep * static_cast<double>(data.windows[w].count)));
-  }
-  Data limited = data;
-  limited.predict.most_steps = std::max(kLeast, kTimesTheStage * most);
-  return limited;
 }
 
 class Diagnoser {
@@ -113,7 +23,8 @@ class Diagnoser {
       : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
 
   /// First with the model's own numbers exactly as stated. If that gives no answer, or the data speak for
-  /// other numbers, anew with the numbers free within what is stated of them.
+  /// other numbers, anew with the numbers free within what is stated of them. Where one effect after the
+  /// other leads nowhere, two at once.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
     const Stage open = with_open_numbers(diagnosis.final_stage);
@@ -122,6 +33,10 @@ class Diagnoser {
     if (!open.parameters.empty() && !speaks_for_stated(diagnosis)) {
       fit_own(open, diagnosis);
       take_steps(options_.most_effects, diagnosis);
+      conclude(diagnosis);
+    }
+    if (diagnosis.verdict == Verdict::unexplained) {
+      look_for_pair(diagnosis);
     }
   }
 
@@ -169,7 +84,7 @@ class Diagnoser {
   }
 
   void conclude(Diagnosis& diagnosis) const {
-    const double before = judged(first_rung(diagnosis).stage.estimate.scores, data_);
+    const double before = judged(diagnosis.ladder[bare_rungs(diagnosis) - 1].stage.estimate.scores, data_);
     const double after = judged(diagnosis.final_stage.estimate.scores, data_);
     const double excess = before * before - 1.0;
     diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
@@ -185,10 +100,10 @@ class Diagnoser {
   }
 
  private:
-  /// The rung before anything was added.
-  static const Rung& first_rung(const Diagnosis& diagnosis) {
+  /// How many rungs come before anything was added.
+  static std::size_t bare_rungs(const Diagnosis& diagnosis) {
     const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
-    return diagnosis.ladder[fitted ? 1 : 0];
+    return fitted ? 2 : 1;
   }
 
   void start(const model::Model& model, Diagnosis& diagnosis) {
@@ -241,31 +156,22 @@ class Diagnoser {
   }
 
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
-  static void leave_out_accepted(const Diagnosis& diagnosis, std::vector<Candidate>& candidates) {
-    const auto is_named = [&](const Candidate& candidate) {
-      return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(), [&](const Finding& finding) {
-        return finding.effect == candidate.law->declaration().name && finding.at == candidate.at;
-      });
-    };
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_named), candidates.end());
+  static std::vector<std::string> names_of(const std::vector<Finding>& findings) {
+    std::vector<std::string> names;
+    for (const Finding& finding : findings) {
+      names.push_back(finding.effect + "@" + finding.at);
+    }
+    return names;
   }
 
   bool step(Diagnosis& diagnosis, int round) {
-    Stage& stage = diagnosis.final_stage;
-    std::vector<Candidate> candidates;
-    {
-      PredictorPool pool(stage.model, data_);
-      candidates = list_candidates(pool, catalogue_, stage.parameters, stage.estimate);
-    }
-    leave_out_accepted(diagnosis, candidates);
-    const Data quick = without_stiffness(stage, data_);
-    const std::vector<Hypothesis> hypotheses = screen(stage, candidates, quick, progress_);
-    const std::vector<Refit> refits = refit(stage, candidates, hypotheses, quick, options_, progress_);
-    diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(hypotheses.size()));
-    std::vector<RankRow> rows = rank(candidates, hypotheses, refits);
-    const bool accepted = !refits.empty() && judge(candidates, refits, rows, diagnosis);
-    if (round == 0) {
-      diagnosis.ranking = rows;
+    Tried tried = try_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_,
+                                 options_, progress_);
+    const Choice choice = choose(tried.stage, tried.refits, data_, options_);
+    const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
+    diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
+    if (choice.named >= 0) {
+      accept(tried, choice, diagnosis);
     }
     diagnosis.leads.clear();
     for (const RankRow& row : rows) {
@@ -273,78 +179,85 @@ class Diagnoser {
         diagnosis.leads.push_back(row);
       }
     }
-    return accepted;
+    if (round == 0) {
+      diagnosis.ranking = rows;
+      first_ = std::move(tried);
+    }
+    return choice.named >= 0;
   }
 
-  /// Of the refits that are about as good as the best, the one with the fewest parameters is named (a law
-  /// that contains another is not preferred to it for an immaterial gain), if nothing speaks against it.
-  bool judge(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
-             std::vector<RankRow>& rows, Diagnosis& diagnosis) const {
-    const Stage& stage = diagnosis.final_stage;
-    const std::vector<double> shares = selected_shares(stage, refits, data_, options_);
-    std::vector<std::size_t> near = near_best(refits, options_);
-    double share = 0.0;
-    for (const std::size_t i : near) {
-      share += shares[i];
+  void accept(const Tried& tried, const Choice& choice, Diagnosis& diagnosis) const {
+    const Refit& refit = tried.refits[static_cast<std::size_t>(choice.named)];
+    const Candidate& candidate = tried.candidates[static_cast<std::size_t>(refit.candidate)];
+    Finding finding = finding_of(candidate);
+    finding.selected_share = choice.share;
+    for (const std::size_t i : choice.rivals) {
+      add_rival(tried.candidates[static_cast<std::size_t>(tried.refits[i].candidate)], finding);
     }
-    for (std::size_t i = 0; i < refits.size(); ++i) {
-      const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
-      rows[i].remark = objection(stage, candidates[static_cast<std::size_t>(refits[i].candidate)], refits[i],
-                                 is_near ? share : shares[i], data_, options_);
-      const Role judged_role = data_.has(Role::held_out) ? Role::held_out : Role::train;
-      rows[i].selected_share = shares[i];
-      std::tie(rows[i].judged_low, rows[i].judged_high) =
-          resampled_error(refits[i], judged_role, data_, options_);
-    }
-    std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
-      return complexity(candidates, refits[a]) < complexity(candidates, refits[b]);
-    });
-    const auto named =
-        std::find_if(near.begin(), near.end(), [&](std::size_t i) { return rows[i].remark.empty(); });
-    if (named == near.end()) {
-      return false;
-    }
-    accept(candidates, refits, rivals_of(*named, refits, data_, options_), *named, share, diagnosis);
-    return true;
-  }
-
-  void accept(const std::vector<Candidate>& candidates, const std::vector<Refit>& refits,
-              const std::vector<std::size_t>& rivals, std::size_t named, double share,
-              Diagnosis& diagnosis) const {
-    const Refit& refit = refits[named];
-    const Candidate& candidate = candidates[static_cast<std::size_t>(refit.candidate)];
-    Finding finding;
-    finding.effect = candidate.law->declaration().name;
-    finding.at = candidate.at;
-    finding.equation = candidate.law->declaration().equation;
-    finding.selected_share = share;
-    const Scores before = diagnosis.final_stage.estimate.scores;
-    finding.train_before = before.train;
-    finding.held_out_before = before.held_out;
-    finding.train_after = refit.estimate.scores.train;
-    finding.held_out_after = refit.estimate.scores.held_out;
-    for (const std::string& same : candidate.same_places) {
-      finding.rivals.push_back({finding.effect, same});
-    }
-    for (const std::size_t i : rivals) {
-      const Candidate& rival = candidates[static_cast<std::size_t>(refits[i].candidate)];
-      finding.rivals.push_back({rival.law->declaration().name, rival.at});
-    }
-    const Stage next{with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
-                     refit.extended.parameters, refit.estimate};
-    PredictorPool pool(next.model, data_);
-    const Eigen::VectorXd deviations = parameter_deviations(
-        pool, data_.windows_of(Role::train), refit.extended.parameters, refit.estimate, nullptr);
-    for (std::size_t p = refit.extended.parameters.size() - static_cast<std::size_t>(refit.own);
-         p < refit.extended.parameters.size(); ++p) {
-      const auto i = static_cast<Eigen::Index>(p);
-      const std::string& label = refit.extended.parameters[p].label;
-      finding.parameters.push_back({label.substr(label.find(':') + 1), refit.extended.parameters[p].unit,
-                                    refit.estimate.theta[i], deviations[i]});
-    }
+    set_errors(tried.stage.estimate.scores, refit.estimate.scores, finding);
+    const Stage next = after(refit);
+    std::vector<Finding> accepted = diagnosis.accepted;
+    accepted.push_back(finding);
+    set_values(next, data_, accepted);
     diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
-    diagnosis.accepted.push_back(finding);
+    diagnosis.accepted = accepted;
     diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
+  }
+
+  /// Two effects at once, from the model with nothing added. They are an answer only at the floor: any two
+  /// laws help where nothing fits.
+  void look_for_pair(Diagnosis& diagnosis) const {
+    if (first_.refits.empty() || is_finished(first_.refits.front().estimate.scores)) {
+      return;
+    }
+    const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
+    std::vector<Refit> refits;
+    for (const Pair& pair : pairs) {
+      refits.push_back(pair.refit);
+    }
+    const Choice choice = choose(first_.stage, refits, data_, options_);
+    diagnosis.pairs = pair_rows(pairs, choice);
+    if (choice.named < 0) {
+      return;
+    }
+    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
+    const Stage both = after(pair.refit);
+    Stage single = without_effect(both, pair.refit.added.back());
+    PredictorPool pool(single.model, data_);
+    single.estimate =
+        gauss_newton(pool, single.parameters, values_of(single.model, single.parameters), {}, {10, 1e-3});
+    const bool needed = judged(both.estimate.scores, data_) <
+                        (1.0 - options_.material) * judged(single.estimate.scores, data_);
+    if (is_finished(both.estimate.scores) && needed) {
+      accept_pair(pairs, choice, single, diagnosis);
+    }
+  }
+
+  void accept_pair(const std::vector<Pair>& pairs, const Choice& choice, const Stage& single,
+                   Diagnosis& diagnosis) const {
+    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
+    const Scores& before = first_.stage.estimate.scores;
+    Finding first = finding_of(pair.first);
+    Finding second = finding_of(pair.second);
+    set_errors(before, single.estimate.scores, first);
+    set_errors(single.estimate.scores, pair.refit.estimate.scores, second);
+    first.selected_share = second.selected_share = choice.share;
+    first.together_with = pair.second.label();
+    second.together_with = pair.first.label();
+    for (const std::size_t i : choice.rivals) {
+      add_pair_rivals(pairs[i], pair, first, second);
+    }
+    std::vector<Finding> accepted{first, second};
+    set_values(after(pair.refit), data_, accepted);
+    diagnosis.ladder.resize(bare_rungs(diagnosis));
+    diagnosis.ladder.push_back({"+ " + pair.first.label(), single});
+    diagnosis.final_stage = after(pair.refit);
+    diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage});
+    diagnosis.accepted = accepted;
+  }
+
+  bool is_finished(const Scores& scores) const {
+    return judged(scores, data_) < options_.finished && scores.train < options_.finished;
   }
 
   static Stage without_effect(const Stage& stage, int effect) {
@@ -365,6 +278,7 @@ class Diagnoser {
   const Data& data_;
   const DiagnoseOptions& options_;
   const Progress& progress_;
+  Tried first_;  // the first round from the model that nothing was added to
 };
 
 }  // namespace
@@ -395,6 +309,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
       diagnoser.rescore(data, diagnosis);
     }
     diagnoser.drop_superfluous(data, diagnosis);
+    set_values(diagnosis.final_stage, data, diagnosis.accepted);
     diagnoser.conclude(diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;

@@ -10,7 +10,7 @@ namespace plumbline::validation {
 
 struct DiagnoseOptions {
   int most_effects = 4;          ///< rounds of acceptance
-  int most_as_stated = 2;        ///< rounds with the model's own numbers exactly as stated
+  int most_as_stated = 1;        ///< rounds with the model's own numbers exactly as stated
   double evidence = 100.0;       ///< least odds in favour of the stated numbers with which they are believed
   int refits = 8;                ///< candidates that are refitted in each round
   double material = 0.05;        ///< least relative fall of the held-out error
@@ -44,6 +44,7 @@ struct Finding {
   double train_before = 0.0, train_after = 0.0;
   double selected_share = 0.0;
   std::string equation;
+  std::string together_with;  ///< "law@place" of the effect that was found with it at once; usually empty
 };
 
 struct RankRow {
@@ -56,6 +57,14 @@ struct RankRow {
   /// Refitted only: the share of resamples in which it was the best, and between which values 90 % of the
   /// resamples have the error that counts (held-out where there is one).
   double selected_share = 0.0, judged_low = 0.0, judged_high = 0.0;
+};
+
+/// Two effects that were refitted together because one after the other led nowhere.
+struct PairRow {
+  Named first, second;
+  double train_after = 0.0, held_out_after = 0.0;
+  double selected_share = 0.0;
+  std::string remark;  ///< why they were not accepted
 };
 
 struct Rung {
@@ -73,6 +82,7 @@ struct Diagnosis {
   std::vector<Finding> accepted;
   std::vector<RankRow> ranking;  ///< of the first round in which something was looked for
   std::vector<RankRow> leads;    ///< refitted but not accepted in the last round
+  std::vector<PairRow> pairs;    ///< best first; empty where one effect after the other led to an answer
   std::vector<Rung> ladder;
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened

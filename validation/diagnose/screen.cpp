@@ -2,96 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "validation/predict/box_least_squares.h"
+#include "validation/diagnose/promise.h"
+#include "validation/diagnose/tangents.h"
 
 namespace plumbline::validation {
 namespace {
-
-/// A law that can be linearised at its null value: it brings no state and no coordinate.
-bool has_tangent(const Candidate& candidate, const effects::Values& start) {
-  return candidate.place != effects::Place::ratio && candidate.law->state_count() == 0 &&
-         candidate.law->is_null(start.data());
-}
-
-struct Sum {
-  Eigen::MatrixXd H;
-  Eigen::VectorXd g;
-  double sse = 0.0;
-  double samples = 0.0;
-};
-
-Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows, const Data& data,
-           Role role) {
-  Sum sum;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const auto w = static_cast<std::size_t>(windows[i]);
-    if (data.role(w) != role) {
-      continue;
-    }
-    if (sum.H.size() == 0) {
-      sum.H = Eigen::MatrixXd::Zero(reduced[i].H.rows(), reduced[i].H.cols());
-      sum.g = Eigen::VectorXd::Zero(reduced[i].g.size());
-    }
-    sum.H += reduced[i].H;
-    sum.g += reduced[i].g;
-    sum.sse += reduced[i].sse;
-    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
-    sum.samples += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
-  }
-  return sum;
-}
-
-double promised_square(const Sum& sum, const std::vector<Eigen::Index>& chosen, const Eigen::VectorXd& d) {
-  if (sum.samples == 0.0) {
-    return 0.0;
-  }
-  double cost = sum.sse;
-  for (std::size_t a = 0; a < chosen.size(); ++a) {
-    cost -= 2.0 * sum.g[chosen[a]] * d[static_cast<Eigen::Index>(a)];
-    for (std::size_t b = 0; b < chosen.size(); ++b) {
-      cost += d[static_cast<Eigen::Index>(a)] * sum.H(chosen[a], chosen[b]) * d[static_cast<Eigen::Index>(b)];
-    }
-  }
-  // The floor is what the sensors leave: a linearised promise below it is no better than the floor.
-  return std::max(cost / sum.samples, 0.9);
-}
-
-/// Solves for the chosen columns on the train windows; the promise is judged on both roles.
-Eigen::VectorXd solve_chosen(const Sum& train, const std::vector<Eigen::Index>& chosen, const Prior& known,
-                             const Room& bounds) {
-  const auto n = static_cast<Eigen::Index>(chosen.size());
-  Eigen::MatrixXd H(n, n);
-  Eigen::VectorXd g(n);
-  Eigen::VectorXd lower(n);
-  Eigen::VectorXd upper(n);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const Eigen::Index i = chosen[static_cast<std::size_t>(a)];
-    g[a] = train.g[i] + known.g[i];
-    lower[a] = bounds.lower[i];
-    upper[a] = bounds.upper[i];
-    for (Eigen::Index b = 0; b < n; ++b) {
-      H(a, b) = train.H(i, chosen[static_cast<std::size_t>(b)]);
-    }
-    H(a, a) += known.H[i];
-  }
-  return box_least_squares(H, g, lower, upper);
-}
-
-/// Of a law's parameters those that, at the strength where the law matters as much as the driving force, move
-/// the prediction by a noticeable share of the floor. The others are numerical noise, and left where they
-/// are.
-std::vector<Eigen::Index> noticeable(const Sum& train, const std::vector<Eigen::Index>& own) {
-  constexpr double kShareOfFloor = 0.03;
-  std::vector<Eigen::Index> chosen;
-  for (const Eigen::Index i : own) {
-    if (std::isfinite(train.H(i, i)) && train.H(i, i) > kShareOfFloor * kShareOfFloor * train.samples) {
-      chosen.push_back(i);
-    }
-  }
-  return chosen;
-}
 
 /// Windows for the costly starts: enough to tell, spread over the trials.
 std::vector<int> thinned(const Data& data) {
@@ -101,68 +17,6 @@ std::vector<int> thinned(const Data& data) {
     chosen.push_back(static_cast<int>(w));
   }
   return chosen;
-}
-
-std::vector<Hypothesis> screen_tangents(const Stage& stage, const std::vector<Candidate>& candidates,
-                                        const std::vector<Hypothesis>& all, const Data& data) {
-  // One model with every candidate in it at its null value: it predicts as the stage does, and one
-  // linearisation serves them all.
-  model::Model model = stage.model;
-  std::vector<FreeParameter> parameters = stage.parameters;
-  std::vector<std::vector<Eigen::Index>> own(all.size());
-  for (std::size_t h = 0; h < all.size(); ++h) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(all[h].candidate)];
-    model.effects.push_back(make_use(candidate, all[h].start));
-    const bool angular = model.place_is_angular(candidate.place, candidate.at);
-    for (FreeParameter& parameter : searched_parameters_of(
-             candidate, model.effects.back(), static_cast<int>(model.effects.size()) - 1, angular)) {
-      own[h].push_back(static_cast<Eigen::Index>(parameters.size()));
-      parameters.push_back(std::move(parameter));
-    }
-  }
-  const std::vector<int> windows = data.all_windows();
-  Eigen::VectorXd theta = values_of(model, parameters);
-  theta.head(stage.estimate.theta.size()) = stage.estimate.theta;
-  const Eigen::VectorXd units = search_units(parameters, theta);
-  PredictorPool pool(model, data);
-  const std::vector<Reduced> reduced = reduce(pool, windows, parameters, theta, stage.estimate.x0, units);
-  const Sum train = sum_of(reduced, windows, data, Role::train);
-  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
-  const Room bounds = room(parameters, theta, units);
-  const Prior known = prior(parameters, units, theta);
-  std::vector<Hypothesis> found;
-  for (std::size_t h = 0; h < all.size(); ++h) {
-    const std::vector<Eigen::Index> moving = noticeable(train, own[h]);
-    if (moving.empty()) {
-      continue;
-    }
-    std::vector<Eigen::Index> chosen;
-    for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
-      chosen.push_back(static_cast<Eigen::Index>(p));
-    }
-    chosen.insert(chosen.end(), moving.begin(), moving.end());
-    Hypothesis hypothesis = all[h];
-    const Eigen::VectorXd step = solve_chosen(train, chosen, known, bounds);
-    hypothesis.promised_train = promised_square(train, chosen, step);
-    hypothesis.promised_held_out = promised_square(held_out, chosen, step);
-    hypothesis.x0.resize(data.windows.size());
-    for (std::size_t w = 0; w < windows.size(); ++w) {
-      Eigen::VectorXd x = stage.estimate.x0[w] + reduced[w].x_shift;
-      for (std::size_t a = 0; a < chosen.size(); ++a) {
-        x -= reduced[w].x_slope.col(chosen[a]) * step[static_cast<Eigen::Index>(a)];
-      }
-      hypothesis.x0[w] = x;
-    }
-    hypothesis.step =
-        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stage.parameters.size() + own[h].size()));
-    for (std::size_t a = 0; a < chosen.size(); ++a) {
-      const bool is_own = chosen[a] >= static_cast<Eigen::Index>(stage.parameters.size());
-      const Eigen::Index first_own = own[h].front() - static_cast<Eigen::Index>(stage.parameters.size());
-      hypothesis.step[is_own ? chosen[a] - first_own : chosen[a]] = step[static_cast<Eigen::Index>(a)];
-    }
-    found.push_back(std::move(hypothesis));
-  }
-  return found;
 }
 
 /// Squared error of the stage on some of the windows as a share of that on all: promises made on a part of
@@ -300,7 +154,7 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
     }
   }
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
-  std::vector<Hypothesis> found = screen_tangents(stage, candidates, tangents, data);
+  std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
   const std::vector<int> windows = thinned(data);
   const Part part{windows, share_of_error(stage, windows, data, Role::train),
                   share_of_error(stage, windows, data, Role::held_out)};

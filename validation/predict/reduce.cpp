@@ -29,7 +29,9 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
       const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
       const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
-      out.H = Jp.transpose() * Jp - QtJ.transpose() * QtJ;
+      out.H.setZero(Jp.cols(), Jp.cols());
+      out.H.selfadjointView<Eigen::Lower>().rankUpdate(Jp.transpose()).rankUpdate(QtJ.transpose(), -1.0);
+      out.H.triangularView<Eigen::StrictlyUpper>() = out.H.transpose();
       out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
       out.raw_sse = lin.r.squaredNorm();
       out.sse = out.raw_sse - Qtr.squaredNorm();

@@ -18,6 +18,16 @@ nlohmann::json to_json(const RankRow& row) {
           {"remark", row.remark}};
 }
 
+nlohmann::json to_json(const PairRow& row) {
+  return {{"effects",
+           {{{"effect", row.first.effect}, {"at", row.first.at}},
+            {{"effect", row.second.effect}, {"at", row.second.at}}}},
+          {"train_after", row.train_after},
+          {"held_out_after", row.held_out_after},
+          {"selected_share", row.selected_share},
+          {"remark", row.remark}};
+}
+
 nlohmann::json to_json(const Finding& finding) {
   nlohmann::json json{{"effect", finding.effect},
                       {"at", finding.at},
@@ -27,6 +37,7 @@ nlohmann::json to_json(const Finding& finding) {
                       {"train_before", finding.train_before},
                       {"train_after", finding.train_after},
                       {"selected_share", finding.selected_share},
+                      {"together_with", finding.together_with},
                       {"rivals", nlohmann::json::array()},
                       {"parameters", nlohmann::json::array()}};
   for (const Named& rival : finding.rivals) {
@@ -93,7 +104,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["unexplained_share"] = diagnosis.unexplained_share;
   json["candidates"] = diagnosis.candidates;
   json["interrupted"] = diagnosis.interrupted;
-  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "ladder"}) {
+  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "pairs", "ladder"}) {
     json[key] = nlohmann::json::array();
   }
   for (const Finding& finding : diagnosis.accepted) {
@@ -104,6 +115,9 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   }
   for (const RankRow& row : diagnosis.leads) {
     json["leads"].push_back(to_json(row));
+  }
+  for (const PairRow& row : diagnosis.pairs) {
+    json["pairs"].push_back(to_json(row));
   }
   for (const OwnParameter& own : own_values(diagnosis.final_stage)) {
     json["own_parameters"].push_back({{"parameter", own.label},

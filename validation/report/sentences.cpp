@@ -55,10 +55,12 @@ std::string finding_sentences(const Finding& finding, Verdict verdict) {
                                                   : fmt::format(" (train {:.2f} to {:.2f})",
                                                                 finding.train_before, finding.train_after);
   return fmt::format(
-      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}; it was chosen in "
+      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}; {} chosen in "
       "{:.0f} % of the resamples.",
       verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
-      before.error, after.error, train, 100.0 * finding.selected_share);
+      before.error, after.error, train,
+      finding.together_with.empty() ? "it was" : "together with " + finding.together_with + " it was",
+      100.0 * finding.selected_share);
 }
 
 std::string summary(const Diagnosis& diagnosis) {

@@ -1,0 +1,24 @@
+#include "tests/diagnose/bench.h"
+
+#include "simulator/model/robot_file.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+
+model::Model bench() { return model::read_model("robots/mabel/leg_bench.yaml", effects::Catalogue::all()); }
+
+Data bench_twins(const std::vector<std::string>& hidden) {
+  const model::Model bare = bench();
+  model::Model robot = bare;
+  for (const std::string& one : hidden) {
+    robot.effects.push_back(parse_effect(one, bare, effects::Catalogue::all()));
+  }
+  std::vector<Trial> trials;
+  for (const std::string name : {"siso_mLA", "siso_mLS", "mimo"}) {
+    trials.push_back(twin(robot, read_experiment("robots/mabel/experiments/" + name + ".yaml", bare), {}));
+    trials.back().name = trials.back().file = name;
+  }
+  return Data(std::move(trials), {});
+}
+
+}  // namespace plumbline::validation

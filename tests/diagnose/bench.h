@@ -1,0 +1,17 @@
+// MABEL's leg on the bench and twins of its three experiments, for the tests of this folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+
+model::Model bench();
+
+/// Two trials to train on and one held out, recorded from the bench with these effects ("law@place:p=1") in
+/// it.
+Data bench_twins(const std::vector<std::string>& hidden);
+
+}  // namespace plumbline::validation

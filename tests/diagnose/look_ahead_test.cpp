@@ -1,0 +1,88 @@
+// Two hidden effects on twins of MABEL's leg on the bench, of which no single one is a good guess.
+#include "validation/diagnose/look_ahead.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/diagnose/bench.h"
+#include "validation/diagnose/tangents.h"
+
+namespace plumbline::validation {
+namespace {
+
+using testing::UnorderedElementsAre;
+
+void silent(const std::string& /*what*/, double /*fraction*/) {}
+
+/// A small catalogue: the trial of every law would take minutes.
+effects::Catalogue some_laws(const std::set<std::string>& names) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  effects::Catalogue catalogue = all;
+  for (const auto& law : all.laws()) {
+    if (names.count(law->declaration().name) == 0) {
+      catalogue = catalogue.without(law->declaration().name);
+    }
+  }
+  return catalogue;
+}
+
+Stage as_given(const model::Model& model, const Data& data) {
+  PredictorPool pool(model, data);
+  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
+}
+
+TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
+  const model::Model bare = bench();
+  const Data data = bench_twins({"command_delay@mLS:delay=0.0014", "quadratic@mLS:drag=1.7e-5"}).thinned(8);
+  const effects::Catalogue catalogue = some_laws({"command_delay", "quadratic", "viscous", "coulomb"});
+  const DiagnoseOptions options;
+  const Tried tried = try_candidates(as_given(bare, data), catalogue, {}, data, options, silent);
+  ASSERT_FALSE(tried.refits.empty());
+  EXPECT_GT(tried.refits.front().estimate.scores.held_out, 2.0);  // one alone is not enough
+  const std::vector<Pair> pairs = look_ahead(tried, catalogue, data, options, silent);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_THAT((std::vector<std::string>{pairs[0].first.label(), pairs[0].second.label()}),
+              UnorderedElementsAre("command_delay@mLS", "quadratic@mLS"));
+  EXPECT_LT(pairs[0].refit.estimate.scores.held_out, 1.1);
+  EXPECT_EQ(pairs[0].refit.added.size(), 2U);
+  EXPECT_EQ(pairs[0].refit.own, 2);
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    EXPECT_GE(pairs[i].refit.square(), pairs[i - 1].refit.square());
+  }
+}
+
+TEST(Tangents, PromiseMostForThePairThatIsHidden) {
+  const model::Model bare = bench();
+  const Data data =
+      bench_twins({"hardening@leg_angle:cubic_stiffness=3", "coulomb@mLS:level=0.003"}).thinned(8);
+  const Stage stage = as_given(bare, data);
+  std::vector<Candidate> candidates;
+  {
+    PredictorPool pool(bare, data);
+    candidates = list_candidates(
+        pool, some_laws({"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"}), {},
+        stage.estimate);
+  }
+  std::vector<Hypothesis> starts;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    for (const effects::Values& start : candidates[c].law->starts(candidates[c].scales)) {
+      Hypothesis hypothesis;
+      hypothesis.candidate = static_cast<int>(c);
+      hypothesis.start = start;
+      starts.push_back(hypothesis);
+    }
+  }
+  const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(3);
+  ASSERT_EQ(pairs.size(), 3U);
+  const auto label = [&](const Hypothesis& h) {
+    return candidates[static_cast<std::size_t>(h.candidate)].label();
+  };
+  EXPECT_THAT((std::vector<std::string>{label(pairs[0].first), label(pairs[0].second)}),
+              UnorderedElementsAre("hardening@leg_angle", "coulomb@mLS"));
+  EXPECT_LT(pairs[0].promised(), 0.5 * pairs[2].promised());
+}
+
+}  // namespace
+}  // namespace plumbline::validation

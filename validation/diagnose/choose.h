@@ -1,0 +1,27 @@
+// Which of several refits is named, and what the data cannot tell from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "validation/diagnose/confirm.h"
+
+namespace plumbline::validation {
+
+struct Choice {
+  int named = -1;                       ///< index of the refit; -1: something speaks against each of the best
+  double share = 0.0;                   ///< of the resamples that choose it or one that is about as good
+  std::vector<std::size_t> rivals;      ///< of the named one
+  std::vector<double> shares;           ///< by refit: share of the resamples in which it is the best
+  std::vector<std::string> objections;  ///< by refit: why it is not named; empty when it could be
+};
+
+/// Of the refits (best first) that are about as good as the best, the one with the fewest parameters is named
+/// (a law that contains another is not preferred to it for an immaterial gain), if nothing speaks against it.
+Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+              const DiagnoseOptions& options);
+
+/// The error that counts: held-out where there is one.
+double judged(const Scores& scores, const Data& data);
+
+}  // namespace plumbline::validation

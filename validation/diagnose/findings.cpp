@@ -1,0 +1,129 @@
+#include "validation/diagnose/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "validation/predict/deviations.h"
+
+namespace plumbline::validation {
+namespace {
+
+Named name_of(const Candidate& candidate) { return {candidate.law->declaration().name, candidate.at}; }
+
+RankRow row_of(const Candidate& candidate) {
+  RankRow row;
+  row.effect = candidate.law->declaration().name;
+  row.at = candidate.at;
+  return row;
+}
+
+}  // namespace
+
+std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const Data& data,
+                                const DiagnoseOptions& options) {
+  std::vector<RankRow> rows;
+  std::vector<bool> done(tried.candidates.size(), false);
+  const Role counts = data.has(Role::held_out) ? Role::held_out : Role::train;
+  for (std::size_t i = 0; i < tried.refits.size(); ++i) {
+    const Refit& refit = tried.refits[i];
+    const auto c = static_cast<std::size_t>(refit.candidate);
+    done[c] = true;
+    RankRow row = row_of(tried.candidates[c]);
+    row.score = refit.square();
+    row.held_out_after = refit.estimate.scores.held_out;
+    row.train_after = refit.estimate.scores.train;
+    row.refitted = true;
+    row.remark = choice.objections[i];
+    row.selected_share = choice.shares[i];
+    std::tie(row.judged_low, row.judged_high) = resampled_error(refit, counts, data, options);
+    rows.push_back(row);
+  }
+  for (const Hypothesis& hypothesis : tried.hypotheses) {
+    const auto c = static_cast<std::size_t>(hypothesis.candidate);
+    if (!done[c]) {
+      done[c] = true;
+      RankRow row = row_of(tried.candidates[c]);
+      row.score = hypothesis.promised();
+      row.held_out_after = std::sqrt(hypothesis.promised_held_out);
+      row.train_after = std::sqrt(hypothesis.promised_train);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& choice) {
+  std::vector<PairRow> rows;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Scores& scores = pairs[i].refit.estimate.scores;
+    rows.push_back({name_of(pairs[i].first), name_of(pairs[i].second), scores.train, scores.held_out,
+                    choice.shares[i], choice.objections[i]});
+  }
+  return rows;
+}
+
+Finding finding_of(const Candidate& candidate) {
+  Finding finding;
+  finding.effect = candidate.law->declaration().name;
+  finding.at = candidate.at;
+  finding.equation = candidate.law->declaration().equation;
+  for (const std::string& same : candidate.same_places) {
+    finding.rivals.push_back({finding.effect, same});
+  }
+  return finding;
+}
+
+void set_values(const Stage& stage, const Data& data, std::vector<Finding>& findings) {
+  PredictorPool pool(stage.model, data);
+  const Eigen::VectorXd deviations =
+      parameter_deviations(pool, data.windows_of(Role::train), stage.parameters, stage.estimate, nullptr);
+  const auto first = static_cast<int>(stage.model.effects.size() - findings.size());
+  for (std::size_t f = 0; f < findings.size(); ++f) {
+    findings[f].parameters.clear();
+    for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+      const FreeParameter& parameter = stage.parameters[p];
+      if (parameter.id.effect == first + static_cast<int>(f)) {
+        const auto i = static_cast<Eigen::Index>(p);
+        findings[f].parameters.push_back({parameter.label.substr(parameter.label.find(':') + 1),
+                                          parameter.unit, stage.estimate.theta[i], deviations[i]});
+      }
+    }
+  }
+}
+
+void set_errors(const Scores& before, const Scores& after, Finding& finding) {
+  finding.train_before = before.train;
+  finding.held_out_before = before.held_out;
+  finding.train_after = after.train;
+  finding.held_out_after = after.held_out;
+}
+
+void add_rival(const Candidate& rival, Finding& finding) {
+  const Named name = name_of(rival);
+  const bool known = std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const Named& other) {
+    return other.effect == name.effect && other.at == name.at;
+  });
+  if (!known) {
+    finding.rivals.push_back(name);
+  }
+}
+
+void add_pair_rivals(const Pair& rival, const Pair& named, Finding& first, Finding& second) {
+  const std::string one = rival.first.label();
+  const std::string other = rival.second.label();
+  if (one == named.first.label()) {
+    add_rival(rival.second, second);
+  } else if (other == named.second.label()) {
+    add_rival(rival.first, first);
+  } else if (one == named.second.label()) {
+    add_rival(rival.second, first);
+  } else if (other == named.first.label()) {
+    add_rival(rival.first, second);
+  } else {
+    add_rival(rival.first, first);
+    add_rival(rival.second, second);
+  }
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,127 @@
+#include "validation/diagnose/look_ahead.h"
+
+#include <algorithm>
+
+#include "validation/diagnose/tangents.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr std::size_t kFirsts = 3;       // single refits that are continued
+constexpr int kSeconds = 4;              // refits after each of them
+constexpr std::size_t kLinearPairs = 5;  // refits of pairs that were linearised together
+constexpr std::size_t kPairs = 6;        // that are returned
+
+/// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
+/// would be stiffer than anything that the samples could show, and cost as much as all others together.
+Data without_stiffness(const Stage& stage, const Data& data) {
+  constexpr double kLeast = 40.0;
+  constexpr double kTimesTheStage = 5.0;
+  constexpr double kEvaluationsOfStep = 3.0;
+  PredictorPool pool(stage.model, data);
+  double most = 0.0;
+  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
+    const long before = pool.evaluations();
+    pool.with(static_cast<int>(w), stage.parameters, stage.estimate.theta,
+              [&](Predictor& predictor) { predictor.residual(data.windows[w], stage.estimate.x0[w]); });
+    most = std::max(most, static_cast<double>(pool.evaluations() - before) /
+                              (kEvaluationsOfStep * static_cast<double>(data.windows[w].count)));
+  }
+  Data limited = data;
+  limited.predict.most_steps = std::max(kLeast, kTimesTheStage * most);
+  return limited;
+}
+
+/// The same two candidates, in whichever order.
+bool is_same(const Pair& one, const Pair& other) {
+  return (one.first.label() == other.first.label() && one.second.label() == other.second.label()) ||
+         (one.first.label() == other.second.label() && one.second.label() == other.first.label());
+}
+
+void sort_and_join(std::vector<Pair>& pairs) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.refit.square() < b.refit.square(); });
+  std::vector<Pair> kept;
+  for (Pair& pair : pairs) {
+    const bool known =
+        std::any_of(kept.begin(), kept.end(), [&](const Pair& other) { return is_same(pair, other); });
+    if (!known && kept.size() < kPairs) {
+      kept.push_back(std::move(pair));
+    }
+  }
+  pairs = std::move(kept);
+}
+
+/// After a single refit whatever helps it most.
+void add_followers(const Tried& tried, const Refit& first, const effects::Catalogue& catalogue,
+                   const Data& data, const DiagnoseOptions& options, const Progress& progress,
+                   std::vector<Pair>& pairs) {
+  const Candidate& candidate = tried.candidates[static_cast<std::size_t>(first.candidate)];
+  const auto named = [&](const std::string& what, double done) {
+    progress("with " + candidate.label() + ": " + what, done);
+  };
+  DiagnoseOptions fewer = options;
+  fewer.refits = kSeconds;
+  const Tried next = try_candidates(after(first), catalogue, {candidate.label()}, data, fewer, named);
+  for (const Refit& second : next.refits) {
+    Pair pair{candidate, next.candidates[static_cast<std::size_t>(second.candidate)], second};
+    pair.refit.added.insert(pair.refit.added.begin(), first.added.begin(), first.added.end());
+    pair.refit.own += first.own;
+    pairs.push_back(std::move(pair));
+  }
+}
+
+}  // namespace
+
+Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
+                     const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
+                     const Progress& progress) {
+  Tried tried;
+  tried.stage = stage;
+  {
+    PredictorPool pool(stage.model, data);
+    tried.candidates = list_candidates(pool, catalogue, stage.parameters, stage.estimate);
+  }
+  const auto is_taken = [&](const Candidate& candidate) {
+    return std::find(taken.begin(), taken.end(), candidate.label()) != taken.end();
+  };
+  tried.candidates.erase(std::remove_if(tried.candidates.begin(), tried.candidates.end(), is_taken),
+                         tried.candidates.end());
+  const Data quick = without_stiffness(stage, data);
+  tried.hypotheses = screen(stage, tried.candidates, quick, progress);
+  tried.refits = refit(stage, tried.candidates, tried.hypotheses, quick, options, progress);
+  return tried;
+}
+
+std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catalogue, const Data& data,
+                             const DiagnoseOptions& options, const Progress& progress) {
+  std::vector<Pair> pairs;
+  std::vector<Hypothesis> tangents;
+  for (const Hypothesis& hypothesis : tried.hypotheses) {
+    if (hypothesis.tangent) {
+      tangents.push_back(hypothesis);
+    }
+  }
+  progress("pairs of " + std::to_string(tangents.size()) + " linear candidates", 0.0);
+  const Data quick = without_stiffness(tried.stage, data);
+  for (const PairHypothesis& promise :
+       Tangents(tried.stage, tried.candidates, tangents, quick).pairs(kLinearPairs)) {
+    const Candidate& first = tried.candidates[static_cast<std::size_t>(promise.first.candidate)];
+    const Candidate& second = tried.candidates[static_cast<std::size_t>(promise.second.candidate)];
+    progress("refitting " + first.label() + " with " + second.label(), 0.5);
+    try {
+      pairs.push_back({first, second, refit_pair(tried.stage, first, second, promise, quick)});
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      continue;  // it cannot be integrated: no explanation of these trials
+    }
+  }
+  for (std::size_t r = 0; r < std::min(kFirsts, tried.refits.size()); ++r) {
+    add_followers(tried, tried.refits[r], catalogue, data, options, progress, pairs);
+  }
+  sort_and_join(pairs);
+  return pairs;
+}
+
+}  // namespace plumbline::validation

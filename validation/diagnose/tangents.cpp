@@ -1,0 +1,200 @@
+#include "validation/diagnose/tangents.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::validation {
+namespace {
+
+/// Of a law's parameters those that, at the strength where the law matters as much as the driving force, move
+/// the prediction by a noticeable share of the floor. The others are numerical noise, and left where they
+/// are.
+std::vector<Eigen::Index> noticeable(const Sum& train, const std::vector<Eigen::Index>& own) {
+  constexpr double kShareOfFloor = 0.03;
+  std::vector<Eigen::Index> chosen;
+  for (const Eigen::Index i : own) {
+    if (std::isfinite(train.H(i, i)) && train.H(i, i) > kShareOfFloor * kShareOfFloor * train.samples) {
+      chosen.push_back(i);
+    }
+  }
+  return chosen;
+}
+
+/// Normal equations of all unknowns but the first `count`, which have moved as the others ask.
+struct Remaining {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+};
+
+Remaining without_stage(const Sum& train, const Prior& known, Eigen::Index count) {
+  const Eigen::Index rest = train.g.size() - count;
+  Remaining left{train.H.bottomRightCorner(rest, rest), train.g.tail(rest)};
+  if (count > 0) {
+    Eigen::MatrixXd own = train.H.topLeftCorner(count, count);
+    own.diagonal() += known.H.head(count);
+    own.diagonal().array() += 1e-9 * own.diagonal().maxCoeff();
+    const Eigen::LDLT<Eigen::MatrixXd> first(own);
+    const Eigen::MatrixXd cross = train.H.bottomLeftCorner(rest, count);
+    left.H.noalias() -= cross * first.solve(cross.transpose());
+    left.g.noalias() -= cross * first.solve(train.g.head(count) + known.g.head(count));
+  }
+  return left;
+}
+
+/// What a free step of the chosen unknowns takes off the cost.
+double gain(const Remaining& left, const std::vector<Eigen::Index>& chosen) {
+  const auto n = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd H(n, n);
+  Eigen::VectorXd g(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    g[a] = left.g[chosen[static_cast<std::size_t>(a)]];
+    for (Eigen::Index b = 0; b < n; ++b) {
+      H(a, b) = left.H(chosen[static_cast<std::size_t>(a)], chosen[static_cast<std::size_t>(b)]);
+    }
+  }
+  H.diagonal() *= 1.0 + 1e-6;  // two laws that are one here have no more to give than either
+  return g.dot(H.ldlt().solve(g));
+}
+
+}  // namespace
+
+bool has_tangent(const Candidate& candidate, const effects::Values& start) {
+  return candidate.place != effects::Place::ratio && candidate.law->state_count() == 0 &&
+         candidate.law->is_null(start.data());
+}
+
+Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,
+                   const std::vector<Hypothesis>& hypotheses, const Data& data)
+    : stage_(stage), hypotheses_(hypotheses), own_(hypotheses.size()) {
+  model::Model model = stage.model;
+  std::vector<FreeParameter> parameters = stage.parameters;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hypotheses[h].candidate)];
+    model.effects.push_back(make_use(candidate, hypotheses[h].start));
+    const bool angular = model.place_is_angular(candidate.place, candidate.at);
+    for (FreeParameter& parameter : searched_parameters_of(
+             candidate, model.effects.back(), static_cast<int>(model.effects.size()) - 1, angular)) {
+      own_[h].push_back(static_cast<Eigen::Index>(parameters.size()));
+      parameters.push_back(std::move(parameter));
+    }
+  }
+  Eigen::VectorXd theta = values_of(model, parameters);
+  theta.head(stage.estimate.theta.size()) = stage.estimate.theta;
+  const Eigen::VectorXd units = search_units(parameters, theta);
+  const std::vector<int> windows = data.all_windows();
+  PredictorPool pool(model, data);
+  reduced_ = reduce(pool, windows, parameters, theta, stage.estimate.x0, units);
+  train_ = sum_of(reduced_, windows, data, Role::train);
+  held_out_ = sum_of(reduced_, windows, data, Role::held_out);
+  bounds_ = room(parameters, theta, units);
+  known_ = prior(parameters, units, theta);
+  for (const std::vector<Eigen::Index>& own : own_) {
+    moving_.push_back(noticeable(train_, own));
+  }
+}
+
+Tangents::Solution Tangents::solve(const std::vector<std::size_t>& some) const {
+  Solution solution;
+  for (std::size_t p = 0; p < stage_.parameters.size(); ++p) {
+    solution.chosen.push_back(static_cast<Eigen::Index>(p));
+  }
+  for (const std::size_t h : some) {
+    solution.chosen.insert(solution.chosen.end(), moving_[h].begin(), moving_[h].end());
+  }
+  solution.step = solve_chosen(train_, solution.chosen, known_, bounds_);
+  solution.train = promised_square(train_, solution.chosen, solution.step);
+  solution.held_out = promised_square(held_out_, solution.chosen, solution.step);
+  return solution;
+}
+
+std::vector<Eigen::VectorXd> Tangents::states_after(const Solution& solution) const {
+  std::vector<Eigen::VectorXd> states = stage_.estimate.x0;
+  for (std::size_t w = 0; w < states.size(); ++w) {
+    states[w] += reduced_[w].x_shift;
+    for (std::size_t a = 0; a < solution.chosen.size(); ++a) {
+      states[w] -= reduced_[w].x_slope.col(solution.chosen[a]) * solution.step[static_cast<Eigen::Index>(a)];
+    }
+  }
+  return states;
+}
+
+// The chosen columns are the stage's and some of each hypothesis'; the others stay where they are.
+Eigen::VectorXd Tangents::full_step(const Solution& solution, const std::vector<std::size_t>& some) const {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t p = 0; p < stage_.parameters.size(); ++p) {
+    columns.push_back(static_cast<Eigen::Index>(p));
+  }
+  for (const std::size_t h : some) {
+    columns.insert(columns.end(), own_[h].begin(), own_[h].end());
+  }
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t a = 0; a < solution.chosen.size(); ++a) {
+    const auto at = std::find(columns.begin(), columns.end(), solution.chosen[a]) - columns.begin();
+    step[at] = solution.step[static_cast<Eigen::Index>(a)];
+  }
+  return step;
+}
+
+std::vector<Hypothesis> Tangents::promises() const {
+  std::vector<Hypothesis> found;
+  for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (moving_[h].empty()) {
+      continue;
+    }
+    const Solution solution = solve({h});
+    Hypothesis hypothesis = hypotheses_[h];
+    hypothesis.promised_train = solution.train;
+    hypothesis.promised_held_out = solution.held_out;
+    hypothesis.x0 = states_after(solution);
+    hypothesis.step = full_step(solution, {h});
+    found.push_back(std::move(hypothesis));
+  }
+  return found;
+}
+
+// Without bounds and for the train windows only, which is quick: enough to leave out what has no prospect.
+std::vector<std::pair<std::size_t, std::size_t>> Tangents::shortlist(std::size_t most) const {
+  const auto count = static_cast<Eigen::Index>(stage_.parameters.size());
+  const Remaining left = without_stage(train_, known_, count);
+  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> rated;
+  for (std::size_t a = 0; a < hypotheses_.size(); ++a) {
+    for (std::size_t b = a + 1; b < hypotheses_.size(); ++b) {
+      if (moving_[a].empty() || moving_[b].empty() || hypotheses_[a].candidate == hypotheses_[b].candidate) {
+        continue;
+      }
+      std::vector<Eigen::Index> chosen = moving_[a];
+      chosen.insert(chosen.end(), moving_[b].begin(), moving_[b].end());
+      for (Eigen::Index& column : chosen) {
+        column -= count;
+      }
+      rated.push_back({-gain(left, chosen), {a, b}});
+    }
+  }
+  const std::size_t kept = std::min(most, rated.size());
+  std::partial_sort(rated.begin(), rated.begin() + static_cast<std::ptrdiff_t>(kept), rated.end());
+  std::vector<std::pair<std::size_t, std::size_t>> best;
+  for (std::size_t i = 0; i < kept; ++i) {
+    best.push_back(rated[i].second);
+  }
+  return best;
+}
+
+std::vector<PairHypothesis> Tangents::pairs(std::size_t most) const {
+  constexpr std::size_t kShortlist = 200;
+  std::vector<PairHypothesis> found;
+  for (const auto& [a, b] : shortlist(kShortlist)) {
+    const Solution solution = solve({a, b});
+    PairHypothesis pair{hypotheses_[a], hypotheses_[b], solution.train, solution.held_out,
+                        full_step(solution, {a, b})};
+    pair.second.x0 = states_after(solution);
+    found.push_back(std::move(pair));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const PairHypothesis& one, const PairHypothesis& other) {
+    return one.promised() < other.promised();
+  });
+  found.resize(std::min(most, found.size()));
+  return found;
+}
+
+}  // namespace plumbline::validation
