@@ -23,6 +23,7 @@ class Backlash final : public ForceLaw {
   double stored_energy(const Motion& m, const double* state, const double* p) const override;
   double dissipated_power(const Motion& m, const double* state, const double* p) const override;
   void switches(const Motion& m, const double* p, std::vector<double>& g) const override;
+  int jumps(const double* p) const override;
 };
 
 }  // namespace plumbline::effects

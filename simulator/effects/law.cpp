@@ -52,6 +52,8 @@ void ForceLaw::state_rate(const Motion& /*m*/, const double* /*state*/, const do
 
 void ForceLaw::switches(const Motion& /*m*/, const double* /*p*/, std::vector<double>& /*g*/) const {}
 
+int ForceLaw::jumps(const double* /*p*/) const { return 0; }
+
 void ActuatorLaw::state_rate(double /*commanded*/, const double* /*state*/, const double* /*p*/,
                              double* /*rate*/) const {}
 

@@ -104,6 +104,9 @@ class ForceLaw : public Law {
   virtual void state_rate(const Motion& m, const double* state, const double* p, double* rate) const;
   /// Switching functions: the law is smooth between their zeros. Appended to `g`; always the same number.
   virtual void switches(const Motion& m, const double* p, std::vector<double>& g) const;
+  /// At the zeros of how many of them, the first ones, the force itself jumps: contacts whose damping acts at
+  /// once. They are functions of the position and the parameters.
+  virtual int jumps(const double* p) const;
 };
 
 /// From the held command to the torque that the motor delivers (command already in torque units).

@@ -74,8 +74,9 @@ struct Summary {
 
 struct Event {
   double time = 0.0;
-  int index = 0;      ///< which switching function
-  int direction = 0;  ///< +1 rising, -1 falling
+  int index = 0;            ///< which switching function
+  int direction = 0;        ///< +1 rising, -1 falling
+  Eigen::VectorXd state{};  ///< just behind the zero
 };
 
 class Integrator {

@@ -121,6 +121,12 @@ class Plant {
   /// Switching functions of all force laws.
   int switch_count() const { return switch_count_; }
   void switches(const double* x, double* g);
+  /// Which of them are zero where a force jumps (ForceLaw::jumps), and whose effect that is.
+  struct Jump {
+    int index = 0;   ///< switching function
+    int effect = 0;  ///< of the model
+  };
+  std::vector<Jump> jumps() const;
 
   Energetics energetics(const double* x, const double* command);
   /// The same for the state and command that rate() was last called with, `stored` without the rigid bodies'

@@ -241,6 +241,21 @@ void Plant::switches(const double* x, double* g) {
   std::copy(all.begin(), all.end(), g);
 }
 
+std::vector<Plant::Jump> Plant::jumps() const {
+  std::vector<Jump> found;
+  std::vector<double> own;
+  int first = 0;
+  for (const ForceSlot& slot : forces_) {
+    for (int i = 0; i < slot.law->jumps(values(slot.effect)); ++i) {
+      found.push_back({first + i, slot.effect});
+    }
+    own.clear();
+    slot.law->switches(effects::Motion(), values(slot.effect), own);
+    first += static_cast<int>(own.size());
+  }
+  return found;
+}
+
 Energetics Plant::energetics(const double* x, const double* command) {
   deliver_torques(x, command, nullptr);
   rigid_at(x);

@@ -15,6 +15,8 @@
 #include "validation/hopping/hop_search.h"
 #include "validation/hopping/hopping_file.h"
 #include "validation/hopping/published.h"
+#include "validation/hopping/recorded_trial.h"
+#include "validation/trial/write_trial.h"
 
 namespace plumbline::cli {
 namespace {
@@ -26,7 +28,7 @@ using validation::HopStatistics;
 constexpr double kDegrees = 57.295779513082323;
 
 struct Options {
-  std::string model, controller, out, json;
+  std::string model, controller, out, record, json;
   validation::HopStart start;
   validation::HopOptions run;
   int starts = 1;
@@ -35,6 +37,7 @@ struct Options {
   bool no_update = false;
   int search = 0;
   std::string published;
+  validation::Role role = validation::Role::train;
   bool sides = false;
   double width = 0.4;
   Platforms platforms;
@@ -120,10 +123,15 @@ void print(const HopStatistics& s, long enough) {
 
 void run_once(const Options& options, const model::Model& model, const controllers::HoppingConfig& config) {
   validation::HopOptions run_options = options.run;
-  run_options.trace = !options.out.empty();
+  run_options.trace = !options.out.empty() || !options.record.empty();
   const HopRun run = validation::hop(model, config, options.start, run_options);
-  if (run_options.trace) {
+  if (!options.out.empty()) {
     write_trace(run.trace, options.out);
+  }
+  if (!options.record.empty()) {
+    validation::Trial trial = validation::recorded_trial(model, run.trace, options.seed);
+    trial.role = options.role;
+    validation::write_trial(trial, model, options.record);
   }
   write_json(to_json(run), options.json);
   print(run);
@@ -210,8 +218,10 @@ void run(Options options) {
   check_trace_file(options.out);
   check_writable(options.json);
   check_not_an_input(options.out, {options.model, options.controller});
-  if (!options.out.empty() && (options.starts > 1 || options.search > 0)) {
-    throw InputError({"", 0, "--out"}, "more than one run", "a single run for a trace");
+  const bool keeps_samples = !options.out.empty() || !options.record.empty();
+  if (keeps_samples && (options.starts > 1 || options.search > 0)) {
+    throw InputError({"", 0, options.out.empty() ? "--record" : "--out"}, "more than one run",
+                     "a single run for a trace or a trial");
   }
   if (options.search > 0 && options.published.empty()) {
     throw InputError({"", 0, "--search"}, "no --published", "the file of published values to search for");
@@ -282,6 +292,14 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
       ->check(CLI::Range(1e-13, 1e-1));
   command->add_option("-o,--out", options->out, "write the trace of a single run to FILE (.csv or .mat)")
       ->type_name("FILE");
+  command
+      ->add_option("--record", options->record,
+                   "write a single run to the folder DIR as a trial: what the robot's sensors would record")
+      ->type_name("DIR");
+  command->add_option("--role", options->role, "with --record: train or held-out")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, validation::Role>{
+          {"train", validation::Role::train}, {"held-out", validation::Role::held_out}}))
+      ->type_name("ROLE");
   add_json_option(*command, options->json);
   command->footer(
       "Example:\n  plumbline hop robots/mabel/mabel.yaml robots/mabel/hopping.yaml -o hops.csv\n"

@@ -32,24 +32,26 @@ void cut_flight(const Trial& trial, Eigen::Index up, Eigen::Index down, std::vec
 }
 
 /// Of the trial's contact events. No window begins at an impact: it begins in the flight before, where its
-/// initial state is well known, and ends in the flight behind, so that it holds both instants.
+/// initial state is well known, and ends in the flight behind, so that it holds the instants of the contact.
+/// In flight no switch is closed: two feet that come down one after the other share a window.
 void cut_at_contact(const Trial& trial, std::vector<Eigen::Index>& cuts) {
-  for (std::size_t r = 0; r < trial.switches.size(); ++r) {
-    Eigen::Index up = 0;
-    for (const ContactEvent& event : trial.contact_events) {
-      if (event.record != static_cast<int>(r)) {
-        continue;
-      }
-      if (event.touchdown) {
-        cut_flight(trial, up, event.sample, cuts);
-      } else {
-        up = event.sample;
-      }
+  std::vector<bool> down;
+  for (const SwitchRecord& record : trial.switches) {
+    down.push_back(record.values[0] > 0.0);
+  }
+  const auto in_flight = [&down] { return std::find(down.begin(), down.end(), true) == down.end(); };
+  Eigen::Index up = 0;
+  for (const ContactEvent& event : trial.contact_events) {
+    const bool was_in_flight = in_flight();
+    down[static_cast<std::size_t>(event.record)] = event.touchdown;
+    if (was_in_flight && event.touchdown) {
+      cut_flight(trial, up, event.sample, cuts);
+    } else if (in_flight()) {
+      up = event.sample;
     }
-    const Eigen::Index last = trial.samples() - 1;
-    if (trial.switches[r].values[last] == 0.0 && up > 0) {
-      cut_flight(trial, up, last, cuts);
-    }
+  }
+  if (in_flight() && up > 0) {
+    cut_flight(trial, up, trial.samples() - 1, cuts);
   }
 }
 

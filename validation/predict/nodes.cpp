@@ -10,7 +10,10 @@ void Predictor::begin_nodes(const Window& window) {
   nodes_ = 1;
   node_of_sample_.clear();
   node_times_.clear();
-  if (plant_.meets_ground()) {
+  jumps_ = plant_.jumps();
+  jump_nodes_.clear();
+  events_seen_ = 0;
+  if (plant_.meets_ground() || !jumps_.empty()) {
     node_of_sample_.assign(1, 0);
     node_times_.assign(1, 0.0);
   }
@@ -25,7 +28,7 @@ void Predictor::add_node(Eigen::Index sample, double part, const Eigen::VectorXd
 }
 
 void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
-  if (!plant_.meets_ground()) {
+  if (node_of_sample_.empty()) {
     states_.col(nodes_++) = state;
     return;
   }

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "simulator/integrate/plant_ode.h"
 #include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
+#include "validation/predict/jump_ode.h"
 
 namespace plumbline::validation {
 namespace {
@@ -172,14 +172,14 @@ Eigen::VectorXd Predictor::initial_spread(const Window& window) {
 // Near the ground a sample is run in pieces: its force changes much within one. Elsewhere a piece is a
 // sample.
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
-  integrate::PlantOde ode(plant_, false, false);
+  begin_nodes(window);
+  JumpOde ode(plant_, jumps_);
   integrate::Options options;
   options.set_tolerance(options_.relative_tolerance);
   options.method = options_.method;
   options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
   integrate::Integrator integrator(ode, options);
   refresh_commands();
-  begin_nodes(window);
   states_.col(0) = x0;
   carry_hidden(window, states_.col(0).data());
   const double t0 = trial_.time[window.first];
@@ -194,9 +194,11 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
       for (int piece = 1; piece < pieces; ++piece) {
         const double part = breaks[b] + (next - breaks[b]) * piece / pieces;
         integrator.advance(t0 + (static_cast<double>(k) + part) * trial_.period);
+        add_jumps(integrator.events(), t0, k);
         add_node(k, part, integrator.state());
       }
       integrator.advance(t0 + (static_cast<double>(k) + next) * trial_.period);
+      add_jumps(integrator.events(), t0, k);
       if (pieces > 1 && next < 1.0) {
         add_node(k, next, integrator.state());
       }

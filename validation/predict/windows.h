@@ -116,7 +116,17 @@ class Predictor {
     double rate = 0.0;       // of the depth, m/s
   };
 
+  /// A node at which a switching function went through zero and a force jumped.
+  struct JumpNode {
+    Eigen::Index node = 0;
+    model::Plant::Jump jump;
+    int direction = 0;
+  };
+
   void run(const Window& window, const Eigen::VectorXd& x0);
+  void add_jumps(const std::vector<integrate::Event>& events, double t0, Eigen::Index sample);
+  void jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
+                   const Eigen::VectorXd& steps, Eigen::MatrixXd& S);
   void begin_nodes(const Window& window);
   void add_node(Eigen::Index sample, double part, const Eigen::VectorXd& state);
   void add_sample(Eigen::Index sample, const Eigen::VectorXd& state);
@@ -153,11 +163,15 @@ class Predictor {
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   std::vector<int> foot_of_switch_;
-  // Of the last run: states x nodes; a node is a sample or, near the ground, a point between two.
+  // Of the last run: states x nodes; a node is a sample or, near the ground and where a force jumps, a point
+  // between two.
   Eigen::MatrixXd states_;
   Eigen::Index nodes_ = 0;
   std::vector<Eigen::Index> node_of_sample_;  // both empty where every node is a sample
   std::vector<double> node_times_;            // s, after the window's first sample
+  std::vector<model::Plant::Jump> jumps_;     // that the model's forces can make
+  std::vector<JumpNode> jump_nodes_;          // that they made
+  std::size_t events_seen_ = 0;
   Eigen::MatrixXd motion_;  // positions and velocities x samples, measured; empty until it is needed
   long evaluations_ = 0;
 };

@@ -1,0 +1,94 @@
+// A hopping run as its sensors record it, and as it is predicted from that record.
+#include "validation/hopping/recorded_trial.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
+#include "validation/compare/compare.h"
+#include "validation/hopping/hop_run.h"
+#include "validation/hopping/hopping_file.h"
+
+namespace plumbline::validation {
+namespace {
+
+class RecordedHops : public testing::Test {
+ protected:
+  static model::Model mabel(const std::string& name) {
+    return model::read_model(PLUMBLINE_ROOT "/robots/mabel/" + name, model::known_effects());
+  }
+
+  static Table trace_of(const model::Model& model) {
+    HopOptions options;
+    options.hops = 2;
+    options.trace = true;
+    return hop(model, read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml"), {}, options).trace;
+  }
+
+  const model::Model model_ = mabel("mabel_planar.yaml");
+  const Table trace_ = trace_of(model_);
+  const Trial trial_ = recorded_trial(model_, trace_, 1);
+};
+
+TEST_F(RecordedHops, HoldCommandsCountsAndSwitches) {
+  ASSERT_EQ(trial_.measured.size(), model_.sensors.size());
+  for (std::size_t s = 0; s < trial_.measured.size(); ++s) {
+    const double count = model_.sensors[s].resolution;
+    for (const double value : trial_.measured[s].values) {
+      ASSERT_NEAR(value / count, std::round(value / count), 1e-6) << trial_.measured[s].sensor;
+    }
+  }
+  ASSERT_EQ(trial_.commands.size(), 4U);
+  EXPECT_GT(trial_.commands[1].values.cwiseAbs().maxCoeff(), 10.0);
+  ASSERT_EQ(trial_.switches.size(), 2U);
+  EXPECT_GE(trial_.contact_events.size(), 6U);  // both feet: down, up, down
+  EXPECT_TRUE(trial_.contact_events.front().touchdown);
+}
+
+// Both feet stand in one window, which begins and ends in flight.
+TEST_F(RecordedHops, AreCutInTheFlights) {
+  for (const Window& window : cut_windows({trial_}, {})) {
+    for (const SwitchRecord& record : trial_.switches) {
+      EXPECT_EQ(record.values[window.first], 0.0) << window.first;
+    }
+  }
+}
+
+TEST_F(RecordedHops, ThePredictionOfTheFirstFlightIsAtTheFloor) {
+  Trial fall = trial_;
+  const Eigen::Index samples = trial_.contact_events.front().sample - 1;
+  fall.time.conservativeResize(samples);
+  for (Measured& channel : fall.measured) {
+    channel.values.conservativeResize(samples);
+  }
+  for (Command& command : fall.commands) {
+    command.values.conservativeResize(samples);
+  }
+  fall.switches.clear();
+  fall.contact_events.clear();
+  PredictOptions options;
+  options.window = 0.05;
+  const Data data({fall}, options);
+  EXPECT_LT(compare(model_, data).scores.train, 1.1);
+}
+
+TEST_F(RecordedHops, ArePredictedWorseWithoutTheCablesStretch) {
+  const Data data({trial_}, {});
+  EXPECT_GT(compare(mabel("mabel_planar_rigid.yaml"), data).scores.train,
+            2.0 * compare(model_, data).scores.train);
+}
+
+TEST_F(RecordedHops, OfAnEmptyTraceAreRefused) {
+  Table empty = trace_;
+  for (Column& column : empty.columns) {
+    column.values.conservativeResize(1);
+  }
+  EXPECT_THROW(recorded_trial(model_, empty, 1), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,72 @@
+// Windows through points at which a force jumps: a stop whose damping acts at once, play that closes.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/predict/windows.h"
+
+namespace plumbline::validation {
+
+// The integrator stopped there: the points become nodes, so that no piece runs across one.
+void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0, Eigen::Index sample) {
+  for (; events_seen_ < events.size(); ++events_seen_) {
+    const integrate::Event& event = events[events_seen_];
+    add_node(sample, (event.time - t0) / trial_.period - static_cast<double>(sample), event.state);
+    jump_nodes_.push_back({nodes_ - 1, jumps_[static_cast<std::size_t>(event.index)], event.direction});
+  }
+}
+
+// A motion that deviates by S reaches the point g(x, p) = 0 earlier or later, and has for so long another
+// rate:
+//   S <- S + (f_behind - f_before) (dg/dx S + dg/dp) / (dg/dx f_before),
+// the saltation matrix (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems,
+// 2004, chapter 7). g is a function of positions and parameters. Both rates are taken a hair beside the
+// point; what a glance leaves of dg/dt is not divided by.
+void Predictor::jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
+                            const Eigen::VectorXd& steps, Eigen::MatrixXd& S) {
+  constexpr double kHair = 1e-9;
+  constexpr double kSlowest = 1e-6;
+  const Eigen::Index nx = plant_.states();
+  const Eigen::Index nz = plant_.positions();
+  const Eigen::VectorXd x = states_.col(at.node);
+  Eigen::VectorXd g(plant_.switch_count());
+  const auto switch_at = [&](const Eigen::VectorXd& state) {
+    plant_.switches(state.data(), g.data());
+    return g[at.jump.index];
+  };
+  const double here = switch_at(x);
+  Eigen::RowVectorXd slope(nz);
+  Eigen::VectorXd moved = x;
+  for (Eigen::Index i = 0; i < nz; ++i) {
+    constexpr double kStep = 1e-6;
+    moved[i] = x[i] + kStep;
+    slope[i] = (switch_at(moved) - here) / kStep;
+    moved[i] = x[i];
+  }
+  const double rate = slope.dot(x.segment(nz, nz));
+  if (std::abs(rate) < kSlowest) {
+    return;
+  }
+  const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant_.motors());
+  const auto rate_beside = [&](double side) {
+    Eigen::VectorXd beside = x;
+    beside.head(nz) += slope.transpose() * ((side * kHair - here) / slope.squaredNorm());
+    Eigen::VectorXd f(nx);
+    plant_.rate(beside.data(), idle.data(), f.data());
+    return f;
+  };
+  const Eigen::VectorXd jump = rate_beside(at.direction) - rate_beside(-at.direction);
+  Eigen::RowVectorXd later = slope * S.topRows(nz);
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    if (ids[p].effect != at.jump.effect) {
+      continue;
+    }
+    const auto i = static_cast<Eigen::Index>(p);
+    const double value = plant_.value(ids[p]);
+    plant_.set_value(ids[p], value + steps[i]);
+    later[nx + i] += (switch_at(x) - here) / steps[i];
+    plant_.set_value(ids[p], value);
+  }
+  S += jump * (later / rate);
+}
+
+}  // namespace plumbline::validation
