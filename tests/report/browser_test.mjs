@@ -39,6 +39,22 @@ const tests = {
     assert.ok(channels >= 2);
     assert.equal(await page.locator("#charts canvas").count(), 2 * channels);
   },
+  async "the channel with the largest error comes first, whichever model is shown"(page) {
+    const names = () => page.locator("#charts .chart").evaluateAll((all) => all.map((one) => one.dataset.channel));
+    const ratios = (await page.locator("#charts .chart h3 small").allInnerTexts()).map((t) => Number(t.match(/rms, ([\d.,]+)/)[1].replace(",", "")));
+    assert.ok(ratios.length >= 2);
+    assert.deepEqual(ratios, [...ratios].sort((a, b) => b - a));
+    const before = await names();
+    await page.keyboard.press("b");
+    assert.deepEqual(await names(), before);
+    await page.keyboard.press("b");
+  },
+  async "whole trials: with the effect the motion needs the force that was commanded"(page) {
+    const rows = await page.locator("#whole-trials tbody tr").evaluateAll((all) => all.map((row) => [...row.querySelectorAll("td")].map((cell) => Number(cell.innerText))));
+    assert.equal(rows.length, await page.locator("#ladder-picture .held").count() - 1);  // one diamond is the key's
+    assert.equal(rows[0].length, 3);  // trials, one motor
+    for (const c of [0, 1, 2]) assert.ok(rows[rows.length - 1][c] < 0.8 * rows[0][c], `${rows}`);
+  },
   async "dragging zooms all channels, a double click shows the whole trial"(page) {
     const [from, to] = await range(page);
     await page.locator("#time").evaluate((section) => section.scrollIntoView());
@@ -65,7 +81,9 @@ const tests = {
     await page.mouse.move(5, 5);
     await page.waitForTimeout(100);
     assert.notEqual(await drawn(page, "#charts canvas"), before);
-    await entry.click();
+    await entry.focus();
+    await entry.press("Enter");
+    await entry.blur();
     await page.mouse.move(5, 5);
     await page.waitForTimeout(100);
     assert.equal(await drawn(page, "#charts canvas"), before);
