@@ -123,6 +123,7 @@ Image strip(const Figure& figure, const model::Plant& plant, const Snapshots& mo
   const std::vector<int> chain = base_and_carriers(plant.model().skeleton);
   const std::vector<Stick> sticks = limbs(plant.model(), chain);
   std::vector<Snapshot> shots;
+  shots.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     shots.push_back(motion.at(options.from + (options.to - options.from) * k / std::max(1, count - 1)));
   }
