@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of the robot in docs/images: hops, stills and a strip. Needs PLUMBLINE, the program.
+# Makes the pictures of the robot in docs/images: hops, stills and a strip, and the hopper. Needs PLUMBLINE, the program.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
@@ -17,3 +17,7 @@ draw() { "$program" render --trace "$work/$1.csv" --model "robots/mabel/$2" "${@
 draw plane mabel_planar.yaml hop_stance --at 1.56s --size 640x480
 draw plane mabel_planar.yaml hop_strip --from 1.499s --to 1.859s --strip 13 --size 1200x400
 draw boom mabel.yaml hop_boom --at 1.54s --camera boom --size 800x480
+
+hopper=robots/hopper
+"$program" twin $hopper/hopper.yaml --with ground_stiffness_error@toe:scale=1.1 --experiment $hopper/experiments/bounce.yaml -o "$work/twin"
+"$program" render "$work/twin/bounce" --at 0.93s --size 720x560 -o docs/images/hopper.png

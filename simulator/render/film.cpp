@@ -8,12 +8,12 @@
 namespace plumbline::render {
 namespace {
 
-constexpr int kLooks = 200;          // moments at which scales are taken
-constexpr double kArrow = 0.5;       // m, of the longest arrows
-constexpr double kMostOften = 0.95;  // share of the contact that is below them
-constexpr double kSector = 0.9;      // rad, of the largest stretch
-constexpr double kBar = 0.1;         // m, the same where a joint slides
-constexpr double kLeastForce = 1.0;  // N
+constexpr int kLooks = 200;           // moments at which scales are taken
+constexpr double kArrowShare = 0.35;  // of the height that is seen
+constexpr double kMostOften = 0.95;   // share of the contact that is below them
+constexpr double kSector = 0.9;       // rad, of the largest stretch
+constexpr double kBar = 0.1;          // m, the same where a joint slides
+constexpr double kLeastForce = 1.0;   // N
 
 std::vector<Snapshot> looks(const Snapshots& motion, double from, double to) {
   std::vector<Snapshot> shots;
@@ -27,17 +27,53 @@ bool has_forces(const std::vector<Snapshot>& shots) {
   return !shots.empty() && !shots.front().pushes.empty();
 }
 
-Scales scales_of(const Snapshots& motion, const std::vector<Snapshot>& shots, double exaggeration) {
+Scales scales_of(const Figure& figure, const Snapshots& motion, const std::vector<Snapshot>& shots,
+                 double exaggeration) {
   Scales scales;
-  scales.newtons_per_metre = arrow_scale(shots);
+  const double arrow = arrow_length(figure, shots);
+  scales.newtons_per_metre = arrow_scale(shots, arrow);
+  scales.arrow = arrow / kLongestArrow;
   scales.spring = motion.has_springs() ? motion.largest_spring() : 0.0;
   scales.stretch = exaggeration > 0.0 ? exaggeration : stretch_scale(shots);
   return scales;
 }
 
+/// A planar model has its legs' joints in one plane, but they are drawn side by side. By body, in its frame:
+/// the way along the joint's axis to the middle of what is drawn, where the joint lies outside of it.
+std::vector<Eigen::Vector3d> drawn_beside(const Figure& figure, const model::Skeleton& skeleton) {
+  std::vector<Eigen::Vector3d> ways(skeleton.bodies.size(), Eigen::Vector3d::Zero());
+  for (const model::Joint& joint : skeleton.joints) {
+    if (joint.type != model::JointType::revolute) {
+      continue;
+    }
+    const Eigen::Vector3d axis = joint.X_CJ.linear() * joint.axis.normalized();
+    Eigen::AlignedBox<double, 1> drawn;
+    for (const Part& part : figure.parts) {
+      for (const Eigen::Vector3d& corner :
+           part.body == joint.child ? corners_of(part) : std::vector<Eigen::Vector3d>()) {
+        drawn.extend(Eigen::Matrix<double, 1, 1>(axis.dot(corner - joint.X_CJ.translation())));
+      }
+    }
+    if (!drawn.isEmpty() && drawn.min()[0] * drawn.max()[0] > 0.0) {
+      ways[static_cast<std::size_t>(joint.child)] = drawn.center()[0] * axis;
+    }
+  }
+  return ways;
+}
+
 }  // namespace
 
-double arrow_scale(const std::vector<Snapshot>& shots) {
+double arrow_length(const Figure& figure, const std::vector<Snapshot>& shots) {
+  Eigen::AlignedBox3d box;
+  for (const Snapshot& shot : shots) {
+    for (const Eigen::Vector3d& corner : world_corners(figure, shot)) {
+      box.extend(corner);
+    }
+  }
+  return box.isEmpty() ? kLongestArrow : std::min(kLongestArrow, kArrowShare * box.diagonal().z());
+}
+
+double arrow_scale(const std::vector<Snapshot>& shots, double longest) {
   std::vector<double> sizes;
   for (const Snapshot& shot : shots) {
     for (const Push& push : shot.pushes) {
@@ -51,7 +87,7 @@ double arrow_scale(const std::vector<Snapshot>& shots) {
   }
   std::sort(sizes.begin(), sizes.end());
   const auto most = static_cast<std::size_t>(kMostOften * static_cast<double>(sizes.size() - 1));
-  return round_down(sizes[most] / kArrow);
+  return round_down(sizes[most] / longest);
 }
 
 double stretch_scale(const std::vector<Snapshot>& shots) {
@@ -89,9 +125,10 @@ Film::Film(const Figure& figure, const model::Plant& plant, const Snapshots& mod
       measured_(measured),
       director_(figure, plant.model().skeleton, model, options.camera,
                 static_cast<double>(options.width) / options.height, options.at.value_or(options.from),
-                options.at.value_or(options.to)) {
+                options.at.value_or(options.to)),
+      beside_(drawn_beside(figure, plant.model().skeleton)) {
   const std::vector<Snapshot> shots = looks(model, options.from, options.to);
-  scales_ = scales_of(model, shots, options.exaggeration);
+  scales_ = scales_of(figure, model, shots, options.exaggeration);
   fixed_.title = options.title;
   fixed_.key = key_of(scales_, {measured != nullptr, has_forces(shots), model.has_stretches(),
                                 model.has_springs() ? &model : nullptr});
@@ -102,12 +139,28 @@ Film::Film(const Figure& figure, const model::Plant& plant, const Snapshots& mod
 Captions Film::captions(const Snapshot& shot) const {
   Captions words = fixed_;
   words.lines.push_back(time_line(shot, options_.phase_names));
-  words.lines.insert(words.lines.end(), options_.notes.begin(), options_.notes.end());
+  words.notes = options_.notes;
   return words;
 }
 
+// Marks stand where the links are drawn.
+Snapshot Film::shot_at(double time) const {
+  Snapshot shot = model_.at(time);
+  const auto way = [&](int body) {
+    const auto b = static_cast<std::size_t>(body);
+    return Eigen::Vector3d(shot.poses[b].linear() * beside_[b]);
+  };
+  for (Push& push : shot.pushes) {
+    push.point += way(push.body);
+  }
+  for (Stretch& stretch : shot.stretches) {
+    stretch.X_WJ.pretranslate(way(stretch.body));
+  }
+  return shot;
+}
+
 Image Film::frame(double time) {
-  const Snapshot shot = model_.at(time);
+  const Snapshot shot = shot_at(time);
   if (measured_ == nullptr) {
     return painter_->paint(shot, nullptr, director_.view(time), captions(shot));
   }

@@ -15,7 +15,7 @@ namespace plumbline::render {
 
 struct FilmOptions {
   std::string title;
-  std::vector<std::string> notes;        ///< lines under the time
+  std::vector<std::string> notes;        ///< smaller lines under the time
   std::vector<std::string> phase_names;  ///< of phases 1, 2, ...
   Camera camera = Camera::side;
   int width = 1280, height = 720;
@@ -24,9 +24,13 @@ struct FilmOptions {
   double exaggeration = 0.0;    ///< of cable stretch; 0: chosen so that the largest can be seen
 };
 
+constexpr double kLongestArrow = 0.5;  ///< m
+/// How long the longest arrows should be, m: a third of the height of robot and motion, at most
+/// kLongestArrow.
+double arrow_length(const Figure& figure, const std::vector<Snapshot>& shots);
 /// The force that one metre of arrow stands for, N: 1, 2 or 5 times a power of ten, such that the longest
-/// arrows (but for the rare peaks of impacts) are about half a metre.
-double arrow_scale(const std::vector<Snapshot>& shots);
+/// arrows (but for the rare peaks of impacts) are about so long.
+double arrow_scale(const std::vector<Snapshot>& shots, double longest);
 /// 1, 2, 5, 10, ... times, such that the largest stretch is drawn as at most 50 degrees (or 0.1 m).
 double stretch_scale(const std::vector<Snapshot>& shots);
 
@@ -44,6 +48,7 @@ class Film {
 
  private:
   Captions captions(const Snapshot& shot) const;
+  Snapshot shot_at(double time) const;
 
   FilmOptions options_;
   const Snapshots& model_;
@@ -51,6 +56,7 @@ class Film {
   Scales scales_;
   Captions fixed_;
   Director director_;
+  std::vector<Eigen::Vector3d> beside_;  // by body: from where it turns to where it is drawn
   std::unique_ptr<Painter> painter_;
 };
 

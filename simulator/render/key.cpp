@@ -8,6 +8,15 @@
 
 namespace plumbline::render {
 
+namespace {
+
+/// Two digits, or all before the point.
+std::string rough(double value) {
+  return value < 100.0 ? number_text(value, 2) : number_text(std::round(value));
+}
+
+}  // namespace
+
 double round_down(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   const double lead = value / decade;
@@ -29,8 +38,7 @@ std::vector<KeyLine> key_of(const Scales& scales, const KeyContents& contents) {
   if (contents.springs != nullptr) {
     const bool turns = contents.springs->springs_turn();
     const double largest = scales.spring * (turns ? 180.0 / M_PI : 1e3);
-    key.push_back(
-        {spring_colors(), "spring deflection, 0 to " + number_text(largest, 2) + (turns ? " deg" : " mm")});
+    key.push_back({spring_colors(), "spring deflection, 0 to " + rough(largest) + (turns ? " deg" : " mm")});
   }
   if (contents.stretches) {
     const std::string how =

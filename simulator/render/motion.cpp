@@ -1,5 +1,6 @@
 #include "simulator/render/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -72,6 +73,28 @@ std::vector<Eigen::Matrix3Xd> forces_of(const Table& trace, const model::Model& 
 }
 
 }  // namespace
+
+std::vector<std::string> phases_by_contact(const model::Model& model, Motion& motion) {
+  std::vector<std::string> names;
+  motion.phase.clear();
+  for (Eigen::Index k = 0; !motion.foot_forces.empty() && k < motion.time.size(); ++k) {
+    std::string feet;
+    for (std::size_t f = 0; f < motion.foot_forces.size(); ++f) {
+      if (motion.foot_forces[f].col(k).norm() > 0.0) {
+        feet += (feet.empty() ? "" : " + ") + model.feet[f].name;
+      }
+    }
+    const std::string name = feet.empty()             ? "flight"
+                             : model.feet.size() == 1 ? "stance"
+                                                      : "stance on " + feet;
+    const auto known = std::find(names.begin(), names.end(), name);
+    motion.phase.push_back(static_cast<int>(known - names.begin()) + 1);
+    if (known == names.end()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
 
 Motion motion_from(const Table& trace, const model::Plant& plant) {
   Motion motion;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "simulator/model/plant.h"
@@ -15,6 +16,10 @@ struct Motion {
   std::vector<Eigen::Matrix3Xd> foot_forces;  ///< of the ground on each foot of the model, N; may be empty
   std::vector<int> phase;                     ///< of each sample; may be empty
 };
+
+/// Sets the phases of a motion by the feet that the ground pushes, and returns their names: "flight" and
+/// "stance", or "stance on left + right" where there are several feet. Without forces there are none.
+std::vector<std::string> phases_by_contact(const model::Model& model, Motion& motion);
 
 /// The motion in a trace that `plumbline hop` or `plumbline simulate` wrote: t; q_SENSOR and x_NAME
 /// (coordinates, motors, pulleys), as far as the model knows them; F_FOOT_x, _y, _z; phase. Other columns are

@@ -106,7 +106,7 @@ struct Painter::Scene {
       arrows.emplace_back(marks);
     }
     for (std::size_t f = 0; f < shot.pushes.size(); ++f) {
-      arrows[f].place(shot.pushes[f], scales.newtons_per_metre);
+      arrows[f].place(shot.pushes[f], scales.newtons_per_metre, scales.arrow);
     }
     while (scales.stretch > 0.0 && sectors.size() < shot.stretches.size()) {
       sectors.emplace_back(marks);
@@ -132,6 +132,7 @@ Image Painter::paint(const Snapshot& shot, const Snapshot* ghost, const View& vi
     return scene.picture(false);
   }
   scene.ghost.place(behind(*ghost, view), 0.0);
+  scene.ghost.hide_what_coincides(*ghost, shot);
   const Image with = scene.picture(true);
   return blend(with, scene.picture(false), kGhost);
 }

@@ -37,12 +37,14 @@ struct KeyLine {
 struct Captions {
   std::string title;
   std::vector<std::string> lines;  ///< under the title
+  std::vector<std::string> notes;  ///< under these, smaller; broken where they would reach the middle
   std::vector<KeyLine> key;        ///< in the other corner
 };
 
 /// How quantities become lengths and colours.
 struct Scales {
   double newtons_per_metre = 2000.0;  ///< of arrows
+  double arrow = 1.0;                 ///< thickness of arrows, 1 for a robot of a person's size
   double stretch = 1.0;               ///< exaggeration of cable stretch
   double spring = 0.0;  ///< deflection of the full colour, rad or m; 0: springs are not coloured
 };

@@ -56,6 +56,17 @@ MainJoint spring_joint(const Model& model, const std::string& at) {
   return {};
 }
 
+/// Of a law's parameter; 0 where it has none of this name.
+double value_of(const model::EffectUse& use, const std::string& name) {
+  const auto& parameters = use.law->declaration().parameters;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (parameters[p].name == name) {
+      return use.values[p].value;
+    }
+  }
+  return 0.0;
+}
+
 /// Between samples k and k + 1.
 struct Between {
   Eigen::Index k;
@@ -124,9 +135,15 @@ void Snapshots::find_springs() {
     const MainJoint main = spring_joint(model, use.at);
     if (main.joint >= 0) {
       springs_turn_ = model.place_is_angular(Place::coordinate, use.at);
-      springs_.push_back({use.at, model.skeleton.joints[static_cast<std::size_t>(main.joint)].child});
+      springs_.push_back({use.at, model.skeleton.joints[static_cast<std::size_t>(main.joint)].child,
+                          value_of(use, "rest"), value_of(use, "side")});
     }
   }
+}
+
+double Snapshots::deflection(const Spring& spring, const double* x) const {
+  const double beyond = plant_.position_of(spring.at, x) - spring.rest;
+  return spring.side == 0.0 ? std::abs(beyond) : std::max(0.0, spring.side * beyond);
 }
 
 bool Snapshots::has_springs() const { return !springs_.empty(); }
@@ -151,6 +168,7 @@ void Snapshots::add_stretches(const double* x, Snapshot& shot) const {
         joint.X_CJ.linear().transpose() * directions_[static_cast<std::size_t>(joint.child)];
     stretch.link = std::max(link.norm(), 0.05);
     stretch.X_WJ = X_WJ;
+    stretch.body = joint.child;
     stretch.X_WJ.linear() = X_WJ.linear() * frame_of(joint.axis.normalized(), link);
     shot.stretches.push_back(stretch);
   }
@@ -168,7 +186,7 @@ Snapshot Snapshots::at(double time) const {
     const model::Foot& foot = model.feet[f];
     const Eigen::Matrix3Xd& force = motion_.foot_forces[f];
     shot.pushes.push_back({shot.poses[static_cast<std::size_t>(foot.body)] * foot.point,
-                           (1.0 - share) * force.col(k) + share * force.col(next)});
+                           (1.0 - share) * force.col(k) + share * force.col(next), foot.body});
   }
   if (!motion_.phase.empty()) {
     shot.phase = motion_.phase[static_cast<std::size_t>(share < 0.5 ? k : next)];
@@ -177,7 +195,7 @@ Snapshot Snapshots::at(double time) const {
   shot.spring.assign(model.skeleton.bodies.size(), 0.0);
   for (const Spring& spring : springs_) {
     double& most = shot.spring[static_cast<std::size_t>(spring.body)];
-    most = std::max(most, std::abs(plant_.position_of(spring.at, x.data())));
+    most = std::max(most, deflection(spring, x.data()));
   }
   return shot;
 }
@@ -189,7 +207,7 @@ double Snapshots::largest_spring() const {
   for (Eigen::Index k = 0; k < motion_.time.size(); k += stride) {
     x.head(plant_.positions()) = motion_.positions.col(k);
     for (const Spring& spring : springs_) {
-      largest = std::max(largest, std::abs(plant_.position_of(spring.at, x.data())));
+      largest = std::max(largest, deflection(spring, x.data()));
     }
   }
   return largest;

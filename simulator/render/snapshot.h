@@ -16,6 +16,7 @@ namespace plumbline::render {
 struct Push {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N
+  int body = -1;                                    ///< that has the foot
 };
 
 /// A cable's stretch, as the angle (or way) at the joint that it drives: from where the motor would hold the
@@ -25,6 +26,7 @@ struct Stretch {
   bool turns = true;
   double amount = 0.0;  ///< rad or m
   double link = 0.2;    ///< half the link's length, m
+  int body = -1;        ///< the link
 };
 
 struct Snapshot {
@@ -63,9 +65,11 @@ class Snapshots {
   struct Spring {
     std::string at;
     int body;
+    double rest, side;  // side 0: it acts on both sides of its rest
   };
   void find_cables();
   void find_springs();
+  double deflection(const Spring& spring, const double* x) const;
   Eigen::VectorXd state_at(double time) const;
   void add_stretches(const double* x, Snapshot& shot) const;
 

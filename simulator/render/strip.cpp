@@ -10,6 +10,7 @@ namespace plumbline::render {
 namespace {
 
 constexpr double kRod = 0.013;      // m
+constexpr double kBall = 0.035;     // m
 constexpr double kApart = 0.42;     // m between figures that stand side by side
 constexpr double kEnough = 0.2;     // m on the way between two figures that need no help
 constexpr double kLightest = 0.62;  // how far the first figure fades into white
@@ -93,13 +94,26 @@ void add(const Snapshot& shot, const Eigen::Isometry3d& X, Snapshot& all) {
   }
 }
 
+Color faded(const Color& color, double light) { return (1.0 - light) * color + light * Color::Ones(); }
+
 void add(const std::vector<Stick>& sticks, const Figure& colors, int first_body, double light,
          Figure& figure) {
   for (Stick stick : sticks) {
     const Color color = color_of(colors, stick.body);
     stick.body += first_body;
-    add_rod(stick, kRod, (1.0 - light) * color + light * Color::Ones(), figure.parts);
+    add_rod(stick, kRod, faded(color, light), figure.parts);
   }
+}
+
+/// Where the heaviest body has no stick, its centre of mass is shown.
+void add_ball(const model::Skeleton& skeleton, int body, const Figure& colors, int first_body, double light,
+              Figure& figure) {
+  Part part;
+  part.body = first_body + body;
+  part.X_BP.translation() = skeleton.bodies[static_cast<std::size_t>(body)].com;
+  part.solid = model::SphereShape{kBall};
+  part.color = faded(color_of(colors, body), light);
+  figure.parts.push_back(part);
 }
 
 }  // namespace
@@ -109,6 +123,7 @@ Image strip(const Figure& figure, const model::Plant& plant, const Snapshots& mo
   const std::vector<int> chain = base_and_carriers(plant.model().skeleton);
   const std::vector<Stick> sticks = limbs(plant.model(), chain);
   std::vector<Snapshot> shots;
+  shots.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     shots.push_back(motion.at(options.from + (options.to - options.from) * k / std::max(1, count - 1)));
   }
@@ -116,15 +131,23 @@ Image strip(const Figure& figure, const model::Plant& plant, const Snapshots& mo
   const Eigen::Isometry3d& first = shots.front().poses[base];
   const double way = (shots.back().poses[base].translation() - first.translation()).head<2>().norm();
   const bool apart = plant.terrain().platforms().empty() && way < kEnough * (count - 1);
+  const bool ball = std::none_of(sticks.begin(), sticks.end(),
+                                 [&](const Stick& stick) { return stick.body == chain.front(); });
   Strip all;
   for (int k = 0; k < count; ++k) {
     const Snapshot& shot = shots[static_cast<std::size_t>(k)];
-    add(sticks, figure, static_cast<int>(all.shot.poses.size()), kLightest * (1.0 - (k + 1.0) / count),
-        all.figure);
+    const int first_body = static_cast<int>(all.shot.poses.size());
+    const double light = kLightest * (1.0 - (k + 1.0) / count);
+    add(sticks, figure, first_body, light, all.figure);
+    if (ball) {
+      add_ball(plant.model().skeleton, chain.front(), figure, first_body, light, all.figure);
+    }
     add(shot, placed(first, shot.poses[base], apart ? kApart : 0.0, k), all.shot);
   }
   Scales scales;
-  scales.newtons_per_metre = 2.0 * arrow_scale(shots);  // many arrows: short ones
+  const double arrow = arrow_length(figure, shots);
+  scales.newtons_per_metre = 2.0 * arrow_scale(shots, arrow);  // many arrows: short ones
+  scales.arrow = arrow / kLongestArrow;
   Captions words;
   words.title = options.title;
   const double step = (options.to - options.from) / std::max(1, count - 1);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace plumbline::render {
 namespace {
@@ -17,6 +18,22 @@ namespace {
 constexpr double kLetter = 1.0 / 34.0;  // of the picture's height
 constexpr double kLetterWidth = 0.54;   // of a letter's height, mean
 constexpr double kLeast = 9.0;          // pixels: smaller ones cannot be read
+constexpr double kSmall = 0.82;         // of notes and key, in letters
+constexpr double kNotes = 0.36;         // share of the width that notes may take
+
+/// In lines of at most so many letters, between words; a longer word has a line of its own.
+std::vector<std::string> broken(const std::string& text, std::size_t letters) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.empty() || lines.back().size() + 1 + word.size() > letters) {
+      lines.push_back(word);
+    } else {
+      lines.back() += " " + word;
+    }
+  }
+  return lines;
+}
 
 }  // namespace
 
@@ -80,7 +97,15 @@ void CaptionActors::write(const Captions& captions) {
     add_text(line, margin, static_cast<int>(y), letter, false, true);
     y -= 1.4 * letter;
   }
-  write_key(captions.key, 0.82 * letter, margin);
+  const double small = kSmall * letter;
+  const auto letters = static_cast<std::size_t>(kNotes * width_ / (kLetterWidth * small));
+  for (const std::string& note : captions.notes) {
+    for (const std::string& line : broken(note, letters)) {
+      add_text(line, margin, static_cast<int>(y), small, false, true);
+      y -= 1.4 * small;
+    }
+  }
+  write_key(captions.key, small, margin);
 }
 
 /// In the upper right corner, its lines one below the other.

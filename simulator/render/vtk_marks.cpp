@@ -94,7 +94,7 @@ ForceArrow::ForceArrow(vtkRenderer* renderer) {
   }
 }
 
-void ForceArrow::place(const Push& push, double newtons_per_metre) {
+void ForceArrow::place(const Push& push, double newtons_per_metre, double thickness) {
   const double size = push.force.norm();
   const int visible = size > kLeastForce ? 1 : 0;
   for (vtkActor* actor : {shaft_.Get(), head_.Get(), disc_.Get()}) {
@@ -104,13 +104,17 @@ void ForceArrow::place(const Push& push, double newtons_per_metre) {
     return;
   }
   const double length = size / newtons_per_metre;
-  const double head = std::min(kHead, 0.5 * length);
+  const double head = std::min(thickness * kHead, 0.5 * length);
   const Eigen::Vector3d direction = push.force / size;
-  copy_to(along(push.point, direction, length - head) * standing(), *shaft_pose_);
+  Eigen::Matrix4d shaft = along(push.point, direction, length - head);
+  shaft.leftCols<2>() *= thickness;
+  copy_to(shaft * standing(), *shaft_pose_);
   Eigen::Matrix4d tip = along(push.point + (length - head) * direction, direction, 1.0);
   tip.topLeftCorner<3, 3>() *= head / kHead;
   copy_to(tip, *head_pose_);
-  copy_to(along(push.point, Eigen::Vector3d::UnitZ(), 1.0), *disc_pose_);
+  Eigen::Matrix4d disc = along(push.point, Eigen::Vector3d::UnitZ(), 1.0);
+  disc.leftCols<2>() *= thickness;
+  copy_to(disc, *disc_pose_);
 }
 
 StretchSector::StretchSector(vtkRenderer* renderer)

@@ -17,7 +17,7 @@ namespace plumbline::render {
 class ForceArrow {
  public:
   explicit ForceArrow(vtkRenderer* renderer);
-  void place(const Push& push, double newtons_per_metre);
+  void place(const Push& push, double newtons_per_metre, double thickness);
 
  private:
   vtkSmartPointer<vtkActor> shaft_, head_, disc_;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSharp = 40.0;      // degrees
 constexpr double kSamePoint = 1e-6;  // m
+constexpr double kSamePlace = 1e-9;  // m, and rad: what stands still, not what moves alike
 
 void make_matter(vtkProperty& property, const Color& color) {
   property.SetColor(color.x(), color.y(), color.z());
@@ -106,9 +107,16 @@ void RobotActors::become_ghost(const Color& color) {
   }
 }
 
+void RobotActors::hide_what_coincides(const Snapshot& shot, const Snapshot& other) {
+  for (Item& item : items_) {
+    const auto body = static_cast<std::size_t>(item.body);
+    item.hidden = (shot.poses[body].matrix() - other.poses[body].matrix()).norm() < kSamePlace;
+  }
+}
+
 void RobotActors::show(bool visible) {
   for (Item& item : items_) {
-    item.actor->SetVisibility(visible ? 1 : 0);
+    item.actor->SetVisibility(visible && !item.hidden ? 1 : 0);
   }
 }
 

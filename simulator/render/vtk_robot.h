@@ -20,6 +20,8 @@ class RobotActors {
   void place(const Snapshot& shot, double spring);
   /// All parts in one colour, without edges.
   void become_ghost(const Color& color);
+  /// Parts whose body is where the other snapshot has it are not shown.
+  void hide_what_coincides(const Snapshot& shot, const Snapshot& other);
   void show(bool visible);
   /// Where the robot keeps light from level ground at this height. Drawn as one flat colour.
   void add_shadow(double height, const Color& color, vtkRenderer* renderer);
@@ -31,6 +33,7 @@ class RobotActors {
     Color color;
     vtkSmartPointer<vtkActor> actor, edges, shadow;
     vtkSmartPointer<vtkMatrix4x4> pose, shadow_pose;
+    bool hidden = false;
   };
   std::vector<Item> items_;
   Eigen::Matrix4d to_ground_ = Eigen::Matrix4d::Identity();

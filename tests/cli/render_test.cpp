@@ -84,6 +84,24 @@ TEST_F(Render, AVideoHasAsManyFramesAsItsTimeAsksFor) {
   EXPECT_EQ(left_running("Xvfb"), 0);
 }
 
+// A robot with a foot: near the ground a prediction has more points than the recording has samples.
+TEST_F(Render, ATrialWithContact) {
+  const std::string hopper = PLUMBLINE_ROOT "/robots/hopper/";
+  succeed({"twin", hopper + "hopper.yaml", "--with", "ground_stiffness_error@toe:scale=0.3", "--experiment",
+           hopper + "experiments/bounce.yaml", "-o", "twin"});
+  const Outcome outcome = succeed(
+      {"render", "twin/bounce", "--measured", "--at", "400ms", "--size", "320x180", "-o", "windows.png"});
+  EXPECT_EQ(outcome.err, "");
+  succeed({"render", "twin/bounce", "--measured", "--whole", "--at", "3.7s", "--size", "320x180", "-o",
+           "whole.png"});
+  EXPECT_GT(render::visible_difference(picture("windows.png"), picture("whole.png")), 0.2);
+  // What simulate writes shows the same robot with the same force under its foot.
+  succeed({"simulate", "twin/bounce", "--method", "rosenbrock", "-o", "trace.csv"});
+  EXPECT_THAT(read("trace.csv"), HasSubstr("F_toe_z [N]"));
+  succeed({"render", "--trace", "trace.csv", "--model", hopper + "hopper.yaml", "--at", "400ms", "--size",
+           "320x180", "-o", "trace.png"});
+}
+
 TEST_F(Render, ATraceNeedsNoTrial) {
   succeed({"simulate", "trials/swing", "-o", "trace.csv"});
   succeed({"render", "--trace", "trace.csv", "--model", "robot/model.yaml", "--strip", "5", "--size",
@@ -146,9 +164,24 @@ TEST_F(Render, CheckComparesMeshAndMass) {
   EXPECT_THAT(outcome.out, HasSubstr("arm   0.54 dm^3  2222 kg/m^3  0.0 mm"));
   const nlohmann::json mesh = read_json("c.json")["meshes"][0];
   EXPECT_THAT(keys(mesh), ElementsAre("body", "center_distance", "closed", "density", "inertia_difference",
-                                      "problems", "volume"));
+                                      "mass", "problems", "volume"));
   EXPECT_NEAR(mesh["density"].get<double>(), 1.2 / 0.00054, 1e-3);
   EXPECT_LT(mesh["inertia_difference"].get<double>(), 0.02);  // izz: 0.00018 against the model's 0.001
+  // Of aluminium it would weigh 0.54 dm^3 * 2700 kg/m^3 = 1.458 kg.
+  const Outcome solid = succeed({"check", "robot/model.yaml", "--density", "2700", "--json", "c.json"});
+  EXPECT_THAT(solid.out, HasSubstr("arm   0.54 dm^3  1.458 kg  1.2 kg"));
+  EXPECT_NEAR(read_json("c.json")["meshes"][0]["mass"].get<double>(), 1.458, 1e-6);
+  // A part of 6 mm in millimetres passes for one of 6 m, but not with 1.2 kg.
+  std::string huge;
+  for (int corner = 0; corner < 8; ++corner) {
+    huge += "v " + std::to_string(corner & 1 ? 3 : -3) + " " + std::to_string(corner & 2 ? 3 : -3) + " " +
+            std::to_string(corner & 4 ? 3 : -3) + "\n";
+  }
+  write("robot/arm.obj",
+        huge +
+            "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\nf 1 5 3\nf 3 5 7\n"
+            "f 2 4 6\nf 4 8 6\n");
+  EXPECT_THAT(succeed({"check", "robot/model.yaml"}).out, HasSubstr("is it in another unit than metres?"));
   write("robot/arm.obj", "v 0 0 0\nv 0.3 0 0\nv 0 0.2 0\nf 1 2 3\n");
   EXPECT_THAT(succeed({"check", "robot/model.yaml"}).out, HasSubstr("not closed"));
 }

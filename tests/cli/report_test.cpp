@@ -28,13 +28,16 @@ TEST_F(Report, ComparesAsCompareDoes) {
   succeed({"compare", "trials/steps", "trials/swing", "--json", "c.json"});
   const json report = data_of("r.html");
   const json compared = read_json("c.json");
-  EXPECT_THAT(keys(report),
-              UnorderedElementsAre("format", "robot", "model", "drawn", "ladder", "trials", "diagnosis",
-                                   "unexplained", "estimates", "values", "repeat"));
+  EXPECT_THAT(keys(report), UnorderedElementsAre("format", "robot", "model", "drawn", "ladder", "trials",
+                                                 "diagnosis", "whole_trials", "published", "unexplained",
+                                                 "estimates", "values", "repeat"));
   EXPECT_TRUE(report["diagnosis"].is_null());
   ASSERT_EQ(report["ladder"].size(), 1U);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["train"], compared["train"]);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["held_out"], compared["held_out"]);
+  succeed({"ladder", "trials/steps", "trials/swing", "--json", "l.json"});
+  EXPECT_EQ(report["whole_trials"][0], read_json("l.json")["models"][0]["trials"]);
+  EXPECT_FALSE(report["whole_trials"][0][0]["inverse_model"]["motors"].empty());
   std::size_t place = 0;
   for (const json& trial : report["trials"]) {
     EXPECT_EQ(trial["windows"].size(), 4U);

@@ -72,7 +72,7 @@ TEST_F(InverseModelTest, SaysWhyItIsNotAvailable) {
   carriage = bare;
   add("cable_stretch@carriage:stiffness=1e5,damping=100");
   EXPECT_EQ(inverse_model(carriage, trial, {}).not_available,
-            "2 independent positions but 1 motors that can move");
+            "2 independent positions but 1 motor that can move");
   Trial without = trial;
   without.commands.clear();
   EXPECT_EQ(inverse_model(bare, without, {}).not_available, "the command of motor drive was not recorded");

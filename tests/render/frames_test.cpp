@@ -131,8 +131,10 @@ TEST_F(Frames, GhostAndModelCoincideWhenTheyShould) {
   };
   const Image alone =
       without_key(Film(robot.figure, *robot.plant, *robot.snapshots, nullptr, film).frame(0.5));
-  const Image same =
-      without_key(Film(robot.figure, *robot.plant, *robot.snapshots, robot.snapshots.get(), film).frame(0.5));
+  Motion near = robot.motion;
+  near.positions.array() += 1e-6;  // exactly the same place is not drawn at all
+  const Snapshots ghost(*robot.plant, near);
+  const Image same = without_key(Film(robot.figure, *robot.plant, *robot.snapshots, &ghost, film).frame(0.5));
   const double coinciding = visible_difference(alone, same);
   EXPECT_LT(coinciding, 0.3);  // where parts cut through each other a few pixels of the ghost show
 
@@ -144,6 +146,22 @@ TEST_F(Frames, GhostAndModelCoincideWhenTheyShould) {
   const Image apart =
       without_key(Film(robot.figure, *robot.plant, *robot.snapshots, &other, film).frame(0.5));
   EXPECT_GT(visible_difference(alone, apart), 4.0 * coinciding);
+}
+
+// Faces that stand still would show their ghost where it lies in the same plane.
+TEST_F(Frames, WhatDoesNotMoveHasNoGhost) {
+  const Robot robot("mabel.yaml");
+  const FilmOptions film = options(Camera::boom);
+  const Image alone = Film(robot.figure, *robot.plant, *robot.snapshots, nullptr, film).frame(0.5);
+  const Image ghost =
+      Film(robot.figure, *robot.plant, *robot.snapshots, robot.snapshots.get(), film).frame(0.5);
+  Image below(alone.width, alone.height / 2);  // without the key
+  Image other = below;
+  std::copy(alone.rgb.end() - static_cast<std::ptrdiff_t>(below.rgb.size()), alone.rgb.end(),
+            below.rgb.begin());
+  std::copy(ghost.rgb.end() - static_cast<std::ptrdiff_t>(other.rgb.size()), ghost.rgb.end(),
+            other.rgb.begin());
+  EXPECT_EQ(below.rgb, other.rgb);
 }
 
 TEST_F(Frames, StoredFramesWouldCatchALegThatIsOff) {

@@ -59,6 +59,22 @@ class MotionTest : public testing::Test {
   Eigen::MatrixXd x_;
 };
 
+TEST_F(MotionTest, WithoutAPhaseTheFeetThatAreLoadedGiveOne) {
+  Table table = trace();
+  drop(table, "phase");
+  Motion motion = motion_from(table, plant_);
+  EXPECT_TRUE(motion.phase.empty());
+  motion.foot_forces[0].col(0).setZero();
+  motion.foot_forces[1].col(0).setZero();
+  motion.foot_forces[1].col(2).setZero();
+  const std::vector<std::string> names = phases_by_contact(plant_.model(), motion);
+  EXPECT_THAT(motion.phase, testing::ElementsAre(1, 2, 3));
+  EXPECT_THAT(names, testing::ElementsAre("flight", "stance on left + right", "stance on left"));
+  motion.foot_forces.clear();
+  EXPECT_TRUE(phases_by_contact(plant_.model(), motion).empty());
+  EXPECT_TRUE(motion.phase.empty());
+}
+
 TEST_F(MotionTest, PositionsForcesAndPhasesComeBack) {
   const Motion motion = motion_from(trace(), plant_);
   EXPECT_LT((motion.positions - x_.topRows(plant_.positions())).norm(), kPull);

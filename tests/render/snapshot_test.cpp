@@ -86,6 +86,20 @@ TEST_F(SnapshotTest, ASpringColoursTheLinkThatItLoads) {
   EXPECT_TRUE(snapshots.springs_turn());
 }
 
+// Deflection counts from the spring's rest, on the side on which it acts.
+TEST(SnapshotOfAHopper, ASpringIsDeflectedFromItsRest) {
+  const model::Plant plant(
+      model::read_model(PLUMBLINE_ROOT "/robots/hopper/hopper.yaml", model::known_effects()), {});
+  Motion motion;
+  motion.time = Eigen::Vector2d(0.0, 1.0);
+  motion.positions = Eigen::MatrixXd::Zero(plant.positions(), 2);
+  const Snapshot shot = Snapshots(plant, motion).at(0.0);
+  // The gas spring at the carriage rests at 0.049 m, the leg's at 0.
+  EXPECT_NEAR(shot.spring[static_cast<std::size_t>(plant.model().body_index("slider"))], 0.049, 1e-12);
+  EXPECT_EQ(shot.spring[static_cast<std::size_t>(plant.model().body_index("foot"))], 0.0);
+  EXPECT_FALSE(Snapshots(plant, motion).springs_turn());
+}
+
 // Every corner of every part lies inside the camera's pyramid, whatever the camera.
 TEST_F(SnapshotTest, EveryCameraKeepsTheRobotInThePicture) {
   motion_.positions(index("hip_x"), 1) = 1.5;

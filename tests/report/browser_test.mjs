@@ -2,7 +2,7 @@
 // Usage: node browser_test.mjs PLAYWRIGHT CHROMIUM FOLDER; FOLDER holds report.html and compared.html, screenshots go there.
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
-import { statSync } from "node:fs";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
 import path from "node:path";
 
 const [playwright, executablePath, folder] = process.argv.slice(2).map((name) => path.resolve(name));
@@ -39,6 +39,12 @@ const tests = {
     assert.ok(channels >= 2);
     assert.equal(await page.locator("#charts canvas").count(), 2 * channels);
   },
+  async "whole trials: with the effect the motion needs the force that was commanded"(page) {
+    const rows = await page.locator("#whole-trials tbody tr").evaluateAll((all) => all.map((row) => [...row.querySelectorAll("td")].map((cell) => Number(cell.innerText))));
+    assert.equal(rows.length, await page.locator("#ladder-picture .held").count() - 1);  // one diamond is the key's
+    assert.equal(rows[0].length, 3);  // trials, one motor
+    for (const c of [0, 1, 2]) assert.ok(rows[rows.length - 1][c] < 0.8 * rows[0][c], `${rows}`);
+  },
   async "dragging zooms all channels, a double click shows the whole trial"(page) {
     const [from, to] = await range(page);
     await page.locator("#time").evaluate((section) => section.scrollIntoView());
@@ -65,7 +71,9 @@ const tests = {
     await page.mouse.move(5, 5);
     await page.waitForTimeout(100);
     assert.notEqual(await drawn(page, "#charts canvas"), before);
-    await entry.click();
+    await entry.focus();
+    await entry.press("Enter");
+    await entry.blur();
     await page.mouse.move(5, 5);
     await page.waitForTimeout(100);
     assert.equal(await drawn(page, "#charts canvas"), before);
@@ -168,6 +176,31 @@ for (const [name, options] of Object.entries({
   narrow: { viewport: { width: 520, height: 900 } }, dark: { colorScheme: "dark" } })) {
   const opened = await open("report.html", options);
   await run(`a picture, ${name}`, opened.page, opened.faults, (one) => picture(one, name));
+}
+/** The same page with the channels of its trials the other way round. */
+function reversed() {
+  const page = readFileSync(path.join(folder, "report.html"), "utf8");
+  return page.replace(/(id="report-data">)(.*?)(<\/script>)/s, (_, open_tag, data, close) => {
+    const report = JSON.parse(data);
+    for (const trial of report.trials) {
+      trial.channels.reverse();
+      for (const at of trial.windows) at.channels.forEach((channels) => channels.reverse());
+    }
+    return open_tag + JSON.stringify(report).replace(/</g, "\\u003c") + close;
+  });
+}
+writeFileSync(path.join(folder, "reversed.html"), reversed());
+for (const name of ["report.html", "reversed.html"]) {
+  const opened = await open(name);
+  await run(`the channel with the largest error comes first, whichever model is shown: ${name}`, opened.page, opened.faults, async (one) => {
+    const names = () => one.locator("#charts .chart").evaluateAll((all) => all.map((chart) => chart.dataset.channel));
+    const ratios = (await one.locator("#charts .chart h3 small").allInnerTexts()).map((t) => Number(t.match(/rms, ([\d.,]+)/)[1].replace(",", "")));
+    assert.ok(ratios.length >= 2);
+    assert.deepEqual(ratios, [...ratios].sort((a, b) => b - a));
+    const before = await names();
+    await one.keyboard.press("b");
+    assert.deepEqual(await names(), before);
+  });
 }
 const compared = await open("compared.html");
 await run("a page without a diagnosis", compared.page, compared.faults, async (one) => {

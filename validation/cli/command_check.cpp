@@ -15,6 +15,7 @@ namespace {
 
 struct Options {
   std::string path, model, data_folder, json;
+  double density = 0.0;
 };
 
 /// A folder, or a file that calls itself a trial; otherwise it must call itself a model.
@@ -35,12 +36,12 @@ void run(const Options& options) {
   if (!is_trial(options.path)) {
     const model::Model model = model::read_model(options.path, catalogue);
     const Freedom freedom = freedom_of(model, {});
-    const std::vector<MeshOfBody> meshes = meshes_of(model);
+    const std::vector<MeshOfBody> meshes = meshes_of(model, options.density);
     nlohmann::json json = to_json(model, freedom);
     json["meshes"] = to_json(meshes);
     write_json(json, options.json);
     print(model, freedom);
-    print(meshes);
+    print(meshes, options.density);
     return;
   }
   const std::string file = options.model.empty() ? validation::model_of_trial(options.path) : options.model;
@@ -64,6 +65,11 @@ void add_check(CLI::App& app, Outcome& /*outcome*/) {
       ->type_name("FILE");
   command->add_option("--data", options->data_folder, "for a trial: folder with its data files")
       ->type_name("DIR");
+  command
+      ->add_option("--density", options->density,
+                   "for a model: of the links' meshes, kg/m^3; left out, the one that gives each its mass")
+      ->check(CLI::PositiveNumber)
+      ->type_name("DENSITY");
   add_json_option(*command, options->json);
   command->footer("Example:\n  plumbline check robots/mabel/leg_bench.yaml");
   command->callback([options] { run(*options); });

@@ -11,23 +11,20 @@
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/closed_loop/closed_loop.h"
 #include "validation/closed_loop/reference.h"
 #include "validation/compare/compare.h"
 #include "validation/compare/rung_name.h"
-#include "validation/inverse_model/inverse_model.h"
+#include "validation/report/whole_trials.h"
 
 namespace plumbline::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using validation::ClosedLoop;
-using validation::InverseModel;
 using validation::LoopError;
 using validation::NeededForce;
 using validation::ReferenceValue;
 using validation::Scores;
-using validation::Trial;
+using validation::WholeTrial;
 
 constexpr double kWorthSaying = 0.005;  // share by which a recorded disturbance may differ from its column
 
@@ -36,20 +33,12 @@ struct LadderInputs {
   std::vector<std::string> models;
 };
 
-/// What is said about one trial beside the window scores.
-struct TrialErrors {
-  std::string trial, data;
-  validation::Role role = validation::Role::train;
-  ClosedLoop loop;
-  InverseModel inverse;
-};
-
 struct Rung {
   std::string file, name;
   std::vector<std::string> lineage;
   bool has_train = false, has_held_out = false;
   Scores scores;
-  std::vector<TrialErrors> trials;
+  std::vector<WholeTrial> trials;
 };
 
 std::vector<std::string> model_files(const LadderInputs& ladder) {
@@ -69,33 +58,8 @@ Rung climb(const Loaded& loaded, const validation::EffectNames& known) {
   rung.has_train = loaded.data->has(validation::Role::train);
   rung.has_held_out = loaded.data->has(validation::Role::held_out);
   rung.scores = validation::compare(loaded.model, *loaded.data).scores;
-  for (const Trial& trial : loaded.data->trials) {
-    rung.trials.push_back({trial.name, fs::path(trial.data_file).filename().string(), trial.role,
-                           validation::closed_loop(loaded.model, trial, loaded.data->predict),
-                           validation::inverse_model(loaded.model, trial, {})});
-  }
+  rung.trials = validation::whole_trials(loaded.model, *loaded.data);
   return rung;
-}
-
-nlohmann::json to_json(const ClosedLoop& loop) {
-  nlohmann::json json{{"not_available", loop.not_available}, {"loops", nlohmann::json::array()}};
-  for (const LoopError& error : loop.loops) {
-    json["loops"].push_back({{"motor", error.motor},
-                             {"sensor", error.sensor},
-                             {"position_percent", error.position_percent},
-                             {"force_percent", error.force_percent},
-                             {"equation_rms", error.equation_rms},
-                             {"disturbance_factor", error.disturbance_factor}});
-  }
-  return json;
-}
-
-nlohmann::json to_json(const InverseModel& inverse) {
-  nlohmann::json json{{"not_available", inverse.not_available}, {"motors", nlohmann::json::array()}};
-  for (const NeededForce& force : inverse.motors) {
-    json["motors"].push_back({{"motor", force.motor}, {"force_percent", force.error_percent()}});
-  }
-  return json;
 }
 
 nlohmann::json to_json(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& published) {
@@ -104,21 +68,13 @@ nlohmann::json to_json(const std::vector<Rung>& rungs, const std::vector<Referen
     nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
     model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
     model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
-    for (const TrialErrors& trial : rung.trials) {
-      model["trials"].push_back({{"trial", trial.trial},
-                                 {"data", trial.data},
-                                 {"role", to_string(trial.role)},
-                                 {"closed_loop", to_json(trial.loop)},
-                                 {"inverse_model", to_json(trial.inverse)}});
+    for (const WholeTrial& trial : rung.trials) {
+      model["trials"].push_back(validation::to_json(trial));
     }
     json["models"].push_back(model);
   }
   for (const ReferenceValue& value : published) {
-    json["published"].push_back({{"compares", to_string(value.quantity)},
-                                 {"model", value.model},
-                                 {"data", value.data},
-                                 {"percent", value.percent},
-                                 {"source", value.source}});
+    json["published"].push_back(validation::to_json(value));
   }
   return json;
 }
@@ -132,7 +88,7 @@ struct ErrorColumn {
 };
 
 std::optional<double> value_of(const Rung& rung, const ErrorColumn& column) {
-  const TrialErrors& trial = rung.trials[column.trial];
+  const WholeTrial& trial = rung.trials[column.trial];
   if (column.quantity == ReferenceValue::Quantity::inverse_force) {
     return column.item < trial.inverse.motors.size()
                ? std::optional<double>(trial.inverse.motors[column.item].error_percent())
@@ -168,14 +124,14 @@ std::vector<ErrorColumn> error_columns(const std::vector<Rung>& rungs) {
       columns.push_back({fmt::format("[{}] {}{}", t + 1, what, motor), data, quantity, t, item});
     };
     const auto loops = longest<LoopError>(
-        rungs, t, [](const TrialErrors& e) -> const std::vector<LoopError>& { return e.loop.loops; });
+        rungs, t, [](const WholeTrial& e) -> const std::vector<LoopError>& { return e.loop.loops; });
     for (std::size_t i = 0; i < loops.size(); ++i) {
       const std::string motor = loops.size() > 1 ? " " + loops[i].motor : "";
       add("position", motor, Quantity::closed_loop_position, i);
       add("force", motor, Quantity::closed_loop_force, i);
     }
     const auto motors = longest<NeededForce>(
-        rungs, t, [](const TrialErrors& e) -> const std::vector<NeededForce>& { return e.inverse.motors; });
+        rungs, t, [](const WholeTrial& e) -> const std::vector<NeededForce>& { return e.inverse.motors; });
     for (std::size_t i = 0; i < motors.size(); ++i) {
       add("inverse", motors.size() > 1 ? " " + motors[i].motor : "", Quantity::inverse_force, i);
     }
@@ -224,7 +180,7 @@ std::vector<std::vector<std::string>> published_rows(const std::vector<Reference
 void print_notes(const std::vector<Rung>& rungs) {
   std::set<std::string> notes;
   for (const Rung& rung : rungs) {
-    for (const TrialErrors& trial : rung.trials) {
+    for (const WholeTrial& trial : rung.trials) {
       if (!trial.inverse.not_available.empty()) {
         notes.insert(fmt::format("{}, {}: no inverse model, {}.", rung.name, trial.trial,
                                  trial.inverse.not_available));
@@ -271,7 +227,7 @@ void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& pu
         "position, force: the whole trial simulated with its controller; inverse: force that the measured "
         "motion needs; both in % of what was measured.\n");
     for (std::size_t t = 0; t < rungs.front().trials.size(); ++t) {
-      const TrialErrors& trial = rungs.front().trials[t];
+      const WholeTrial& trial = rungs.front().trials[t];
       fmt::print("[{}] {} ({})\n", t + 1, trial.trial, to_string(trial.role));
     }
   }

@@ -48,6 +48,7 @@ struct Scene {
   model::Model model;
   std::unique_ptr<model::Plant> plant;
   Motion motion, measured;
+  std::vector<std::string> phase_names;
   std::vector<std::string> notes;
 };
 
@@ -130,6 +131,13 @@ Scene from_trace(const Options& options) {
   scene.plant =
       std::make_unique<model::Plant>(scene.model, std::vector<model::Lock>(), terrain_of(options.platforms));
   scene.motion = render::motion_from(read_table(options.trace), *scene.plant);
+  if (scene.motion.phase.empty()) {
+    scene.phase_names = render::phases_by_contact(scene.model, scene.motion);
+    return scene;
+  }
+  for (int phase = 1; phase <= 6; ++phase) {
+    scene.phase_names.emplace_back(controllers::to_string(static_cast<controllers::HoppingPhase>(phase)));
+  }
   return scene;
 }
 
@@ -143,6 +151,7 @@ Scene from_trial(const Options& options) {
   const validation::TrialMotion motion =
       validation::trial_motion(scene.model, trial, {options.whole ? 0.0 : options.window, &stop_flag()});
   scene.motion = {motion.time, motion.predicted, motion.foot_forces, {}};
+  scene.phase_names = render::phases_by_contact(scene.model, scene.motion);
   scene.measured = {motion.time, motion.measured, {}, {}};
   scene.notes.push_back(trial.title);
   scene.notes.push_back(options.whole ? "model in one piece from the first sample"
@@ -154,9 +163,7 @@ render::FilmOptions film_options(const Options& options, const Scene& scene, con
   render::FilmOptions film;
   film.title = scene.model.robot;
   film.notes = scene.notes;
-  for (int phase = 1; phase <= 6; ++phase) {
-    film.phase_names.emplace_back(controllers::to_string(static_cast<controllers::HoppingPhase>(phase)));
-  }
+  film.phase_names = scene.phase_names;
   film.camera = render::camera_named(options.camera);
   const Size size = size_from(options.size);
   film.width = size.width;

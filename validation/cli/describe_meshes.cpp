@@ -22,23 +22,36 @@ void append(const Mesh& part, const Eigen::Isometry3d& X, Mesh& whole) {
   }
 }
 
-void compare(const Mesh& mesh, const model::Body& body, MeshOfBody& result) {
+// Of matter and of hollow parts, kg/m^3. A mesh in millimetres that was taken for metres is off by 1e9.
+constexpr double kLightest = 1.0;
+constexpr double kHeaviest = 30000.0;
+
+void compare(const Mesh& mesh, const model::Body& body, double density, MeshOfBody& result) {
+  result.read = !mesh.triangles.empty();
   result.closed = render::is_closed(mesh);
   if (!result.closed) {
     return;
   }
   const render::SolidProperties solid = render::solid_properties(mesh);
   result.volume = solid.volume;
+  result.model_mass = body.mass;
   if (body.mass > 0.0 && solid.volume > 0.0) {
-    result.density = body.mass / solid.volume;
+    result.density = density > 0.0 ? density : body.mass / solid.volume;
+    result.mass = result.density * solid.volume;
     result.center_distance = (solid.center - body.com).norm();
     result.inertia_difference = (result.density * solid.inertia - body.inertia).norm() / body.inertia.norm();
+    if (result.density < kLightest || result.density > kHeaviest) {
+      result.problems.push_back(
+          fmt::format("{}: its mesh would need a density of {:.2g} kg/m^3 for {:.3g} kg: is it in another "
+                      "unit than metres?",
+                      body.name, result.density, body.mass));
+    }
   }
 }
 
 }  // namespace
 
-std::vector<MeshOfBody> meshes_of(const model::Model& model) {
+std::vector<MeshOfBody> meshes_of(const model::Model& model, double density) {
   const model::Visuals visuals = model::read_visuals(model.skeleton.file);
   std::vector<MeshOfBody> results;
   for (const model::Body& body : model.skeleton.bodies) {
@@ -59,7 +72,7 @@ std::vector<MeshOfBody> meshes_of(const model::Model& model) {
       }
     }
     if (!whole.triangles.empty() || !result.problems.empty()) {
-      compare(whole, body, result);
+      compare(whole, body, density, result);
       results.push_back(result);
     }
   }
@@ -73,6 +86,7 @@ nlohmann::json to_json(const std::vector<MeshOfBody>& meshes) {
     row["volume"] = mesh.closed ? nlohmann::json(mesh.volume) : nlohmann::json();
     const bool heavy = mesh.density > 0.0;
     row["density"] = heavy ? nlohmann::json(mesh.density) : nlohmann::json();
+    row["mass"] = heavy ? nlohmann::json(mesh.mass) : nlohmann::json();
     row["center_distance"] = heavy ? nlohmann::json(mesh.center_distance) : nlohmann::json();
     row["inertia_difference"] = heavy ? nlohmann::json(mesh.inertia_difference) : nlohmann::json();
     list.push_back(row);
@@ -80,20 +94,35 @@ nlohmann::json to_json(const std::vector<MeshOfBody>& meshes) {
   return list;
 }
 
-void print(const std::vector<MeshOfBody>& meshes) {
+void print(const std::vector<MeshOfBody>& meshes, double density) {
   if (meshes.empty()) {
     return;
   }
-  fmt::print("\nMeshes, as solids of the one density that gives the model's mass:\n\n");
+  const bool given = density > 0.0;
+  given ? fmt::print("\nMeshes, as solids of {:g} kg/m^3:\n\n", density)
+        : fmt::print("\nMeshes, as solids of the one density that gives the model's mass:\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const MeshOfBody& mesh : meshes) {
     const bool heavy = mesh.density > 0.0;
-    rows.push_back({mesh.body, mesh.closed ? fmt::format("{:.4g} dm^3", 1e3 * mesh.volume) : "not closed",
-                    heavy ? fmt::format("{:.0f} kg/m^3", mesh.density) : "-",
-                    heavy ? fmt::format("{:.1f} mm", 1e3 * mesh.center_distance) : "-",
-                    heavy ? fmt::format("{:.0f} %", 1e2 * mesh.inertia_difference) : "-"});
+    std::vector<std::string> row{mesh.body, mesh.closed ? fmt::format("{:.4g} dm^3", 1e3 * mesh.volume)
+                                            : mesh.read ? "not closed"
+                                                        : "-"};
+    if (given) {
+      row.push_back(heavy ? fmt::format("{:.4g} kg", mesh.mass) : "-");
+      row.push_back(heavy ? fmt::format("{:.4g} kg", mesh.model_mass) : "-");
+    } else {
+      row.push_back(heavy ? fmt::format("{:.0f} kg/m^3", mesh.density) : "-");
+    }
+    row.push_back(heavy ? fmt::format("{:.1f} mm", 1e3 * mesh.center_distance) : "-");
+    row.push_back(heavy ? fmt::format("{:.0f} %", 1e2 * mesh.inertia_difference) : "-");
+    rows.push_back(row);
   }
-  print_table({"body", "volume", "density", "centre of mass off by", "inertia off by"}, rows);
+  std::vector<std::string> head{"body", "volume"};
+  head.insert(head.end(), {given ? "mass" : "density", "centre of mass off by", "inertia off by"});
+  if (given) {
+    head.insert(head.begin() + 3, "in the model");
+  }
+  print_table(head, rows);
   for (const MeshOfBody& mesh : meshes) {
     for (const std::string& problem : mesh.problems) {
       fmt::print("  {}\n", problem);

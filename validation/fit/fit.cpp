@@ -12,7 +12,11 @@
 namespace plumbline::validation {
 namespace {
 
-std::string percent(double share) { return number_text(100.0 * share, 2) + " %"; }
+/// Two digits, or all before the point.
+std::string percent(double share) {
+  const double value = 100.0 * share;
+  return (value < 100.0 || value > 1e6 ? number_text(value, 2) : number_text(std::round(value))) + " %";
+}
 
 /// Confidence interval along the search line, in the parameter's own unit and within its bounds.
 void set_interval(const FreeParameter& parameter, double quantile, FittedParameter& fitted) {

@@ -151,7 +151,7 @@ std::string no_inverse(const model::Plant& plant, const std::vector<int>& moving
   }
   if (static_cast<int>(moving.size()) != plant.positions()) {
     return std::to_string(plant.positions()) + " independent positions but " + std::to_string(moving.size()) +
-           " motors that can move";
+           (moving.size() == 1 ? " motor" : " motors") + " that can move";
   }
   for (const int m : moving) {
     const std::string& name = plant.model().motors[static_cast<std::size_t>(m)].name;

@@ -54,6 +54,18 @@ Eigen::Index Predictor::node_of(Eigen::Index sample) const {
   return node_of_sample_.empty() ? sample : node_of_sample_[static_cast<std::size_t>(sample)];
 }
 
+Eigen::MatrixXd Predictor::predicted_states() const {
+  if (node_of_sample_.empty()) {
+    return states_.leftCols(nodes_);
+  }
+  const auto samples = static_cast<Eigen::Index>(node_of_sample_.size());
+  Eigen::MatrixXd states(states_.rows(), samples);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    states.col(k) = states_.col(node_of(k));
+  }
+  return states;
+}
+
 double Predictor::length_of(Eigen::Index node) const {
   const auto n = static_cast<std::size_t>(node);
   return node_times_.empty() ? trial_.period : node_times_[n + 1] - node_times_[n];

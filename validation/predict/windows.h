@@ -92,8 +92,8 @@ class Predictor {
 
   /// Predicted channels, count x channels, SI.
   Eigen::MatrixXd predict(const Window& window, const Eigen::VectorXd& x0);
-  /// States of the window predicted last, states x count.
-  const Eigen::MatrixXd& predicted_states() const { return states_; }
+  /// States of the window predicted last at its samples, states x count.
+  Eigen::MatrixXd predicted_states() const;
   /// Independent positions that fit the measured channels best, positions x samples of the trial.
   Eigen::MatrixXd measured_positions() const;
   /// Residuals only.

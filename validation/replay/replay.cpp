@@ -38,6 +38,23 @@ void add_place(model::Plant& plant, const std::string& name, bool angular, const
   trace.columns.push_back({"v_" + name, unit + "/s", std::move(velocity)});
 }
 
+void add_forces(model::Plant& plant, const Eigen::MatrixXd& states, Table& trace) {
+  const std::size_t feet = plant.model().feet.size();
+  std::vector<Eigen::Matrix3Xd> forces(feet, Eigen::Matrix3Xd::Zero(3, states.cols()));
+  for (Eigen::Index k = 0; k < states.cols() && feet > 0; ++k) {
+    const std::vector<model::Touch> touches = plant.touches(states.col(k).data());
+    for (std::size_t f = 0; f < touches.size(); ++f) {
+      forces[f].col(k) = touches[f].force;
+    }
+  }
+  for (std::size_t f = 0; f < feet; ++f) {
+    for (int axis = 0; axis < 3; ++axis) {
+      trace.columns.push_back(
+          {"F_" + plant.model().feet[f].name + "_" + "xyz"[axis], "N", forces[f].row(axis).transpose()});
+    }
+  }
+}
+
 Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
   const model::Model& model = plant.model();
   Table trace;
@@ -58,6 +75,7 @@ Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
   for (const model::Motor& motor : model.motors) {
     add_place(plant, motor.name, motor.angular, run.states, trace);
   }
+  add_forces(plant, run.states, trace);
   return trace;
 }
 

@@ -28,7 +28,7 @@ struct ReplayError {
 struct Replay {
   integrate::RunResult run;
   /// t; q_SENSOR: what the sensors would read without quantisation and noise; u_MOTOR: commands; x_NAME and
-  /// v_NAME: position and velocity of each coordinate and motor. SI.
+  /// v_NAME: position and velocity of each coordinate and motor; F_FOOT_x, _y, _z: force of the ground. SI.
   Table trace;
   std::vector<ReplayError> errors;  ///< empty for experiments
   double duration = 0.0;            ///< simulated, s

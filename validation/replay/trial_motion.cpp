@@ -39,7 +39,7 @@ TrialMotion trial_motion(const model::Model& model, const Trial& trial, const Tr
       throw Stopped();
     }
     predictor.predict(window, predictor.initial_state(window));
-    const Eigen::MatrixXd& states = predictor.predicted_states();
+    const Eigen::MatrixXd states = predictor.predicted_states();
     motion.predicted.middleCols(window.first, window.count) = states.topRows(predictor.plant().positions());
     add_forces(predictor.plant(), states, window.first, motion);
   }

@@ -10,6 +10,7 @@
 #include "validation/report/parameters_json.h"
 #include "validation/report/result_json.h"
 #include "validation/report/traces.h"
+#include "validation/report/whole_trials.h"
 
 namespace plumbline::validation {
 namespace {
@@ -68,6 +69,31 @@ json forces_json(const Stage& stage, const Data& data) {
   return list;
 }
 
+/// By model of the ladder, by trial.
+json whole_json(const ReportContent& content, const Data& data, const Progress& progress) {
+  json list = json::array();
+  for (const Rung& rung : content.ladder) {
+    progress("whole trials: " + rung.name, 0.1);
+    json trials = json::array();
+    for (const WholeTrial& trial : whole_trials(fitted(rung.stage), data)) {
+      trials.push_back(to_json(trial));
+    }
+    list.push_back(trials);
+  }
+  return list;
+}
+
+json published_json(const model::Model& given) {
+  json list = json::array();
+  const std::string file = given.lineage.empty() ? "" : reference_beside(given.lineage.front());
+  if (!file.empty()) {
+    for (const ReferenceValue& value : read_reference(file)) {
+      list.push_back(to_json(value));
+    }
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catalogue& catalogue,
@@ -97,6 +123,8 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
               {"model", content.given.file},
               {"drawn", json::array()},
               {"ladder", json::array()},
+              {"whole_trials", whole_json(content, data, progress)},
+              {"published", published_json(content.given)},
               {"trials", json::array()},
               {"diagnosis", content.diagnosis},
               {"unexplained", json::array()},

@@ -52,11 +52,8 @@ std::vector<std::size_t> worst_windows(const Stage& stage, const Data& data, int
 json windows_json(const Data& data, std::size_t trial, const std::vector<Drawn>& drawn) {
   json list = json::array();
   const Trial& of = data.trials[trial];
-  for (std::size_t w = 0; w < data.windows.size(); ++w) {
+  for (const std::size_t w : windows_in_time(data, trial)) {
     const Window& window = data.windows[w];
-    if (window.trial != static_cast<int>(trial)) {
-      continue;
-    }
     json ratios = json::array();
     json channels = json::array();
     for (const Drawn& one : drawn) {

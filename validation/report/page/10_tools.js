@@ -40,11 +40,22 @@ function ratio(value) {
 
 function percent(share) { return `${(100 * share).toFixed(share < 0.0995 && share > 0 ? 1 : 0)} %`; }
 
+/** So many significant digits that a change by one deviation shows, 4 to 9. */
+function digitsFor(value, deviation) {
+  if (!(deviation > 0) || !(Math.abs(value) > 0)) return 4;
+  return Math.min(9, Math.max(4, Math.ceil(Math.log10(Math.abs(value) / deviation)) + 1));
+}
+
 function withUnit(value, unit, digits = 4) {
   return unit === "1" || !unit ? number(value, digits) : `${number(value, digits)} ${unit}`;
 }
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); }
+
+function isInView(element) {
+  const { top, bottom } = element.getBoundingClientRect();
+  return top < 0.7 * innerHeight && bottom > 0.3 * innerHeight;
+}
 
 function bytesOf(base64) {
   const text = atob(base64);

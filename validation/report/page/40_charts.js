@@ -70,7 +70,8 @@ function shade(u) {
   context.save();
   const trial = trialShown();
   const windows = trial.windows;
-  if ((windows[0].to - windows[0].from) / (u.scales.x.max - u.scales.x.min) * width > 8 * devicePixelRatio) {
+  const mean = (windows[windows.length - 1].to - windows[0].from) / windows.length;
+  if (mean / (u.scales.x.max - u.scales.x.min) * width > 8 * devicePixelRatio) {
     windows.forEach((at, i) => { if (i % 2) paint(at.from, at.to, colour("window")); });
   }
   stances(trial).forEach(([from, to]) => paint(from, to, colour("stance")));
@@ -127,8 +128,22 @@ function chart(where, height, label, least, series, data, behind) {
     axes: axes(label, "s"), series: [timeSeries, ...series],
     hooks: { drawClear: [shade, ...behind], setScale: [link] },
   }, data, where);
+  reachLegend(u);
   charts.push(u);
   return u;
+}
+
+/** Entries of a legend answer to keys as they do to clicks. */
+function reachLegend(u) {
+  for (const entry of u.root.querySelectorAll(".u-legend .u-series:not(:first-child) th")) {
+    entry.tabIndex = 0;
+    entry.setAttribute("role", "button");
+    entry.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      entry.click();
+    });
+  }
 }
 
 /** A little room around the values, and never less than `least` ({low, high}, or a span about the middle). */
@@ -142,6 +157,12 @@ function padded(min, max, least) {
   }
   const room = 0.06 * (high - low);
   return [low - room, high + room];
+}
+
+/** Channels of the trial that is shown, the largest error of the first model first: a switch of models moves none. */
+function channelOrder() {
+  const errors = trialShown().channels.map((channel) => channel.models[0].ratio);
+  return errors.map((_, c) => c).sort((a, b) => errors[b] - errors[a]);
 }
 
 /** The two charts of one channel. */
@@ -167,7 +188,7 @@ function drawCharts() {
   while (charts.length) charts.pop().destroy();
   const box = $("charts");
   box.replaceChildren();
-  trialShown().channels.forEach((_, c) => addChannel(box, c));
+  channelOrder().forEach((c) => addChannel(box, c));
   box.append(...trialShown().switches.map((one) => make("p", { class: "note" },
     `Contact switch ${one.sensor}: touchdown and lift-off are predicted to ${number(1e3 * one.models[state.model].rms)} ms rms, ${ratio(one.models[state.model].ratio)} times the floor of ${number(1e3 * one.floor)} ms.`)));
   applyRange();

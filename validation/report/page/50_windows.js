@@ -39,7 +39,7 @@ function stepWorst(direction) {
   const list = worstWindows();
   const now = list.findIndex(isShown);
   const next = list[now < 0 ? (direction > 0 ? 0 : list.length - 1) : (now + direction + list.length) % list.length];
-  showWindow(next.trial, next.index, false);
+  showWindow(next.trial, next.index, !isInView($("charts")));
 }
 
 /** Error of every window over time, logarithmic; a bar leads to its window. */

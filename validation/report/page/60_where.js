@@ -54,7 +54,7 @@ function drawSpectra() {
   const box = $("spectra");
   box.replaceChildren();
   $("spectrum-trial").textContent = trialShown().name;
-  for (const channel of trialShown().channels) addSpectrum(box, channel);
+  for (const c of channelOrder()) addSpectrum(box, trialShown().channels[c]);
 }
 
 function isPower(tick) { return tick !== null && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6; }

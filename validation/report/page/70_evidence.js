@@ -15,7 +15,7 @@ function drawFindings() {
     make("h3", {}, labelOf(finding)),
     finding.equation ? make("code", {}, finding.equation) : null,
     make("table", {}, make("tbody", {}, finding.parameters.map((p) => make("tr", {}, make("td", {}, p.name),
-      make("td", {}, `${number(p.value, 4)} ± ${number(p.standard_deviation, 2)} ${p.unit === "1" ? "" : p.unit}`))))),
+      make("td", {}, `${number(p.value, digitsFor(p.value, p.standard_deviation))} ± ${number(p.standard_deviation, 2)} ${p.unit === "1" ? "" : p.unit}`))))),
     make("p", {}, `Held-out error ${ratio(finding.held_out_before)} → ${ratio(finding.held_out_after)}, train ${ratio(finding.train_before)} → ${ratio(finding.train_after)} times the floor. Chosen in ${percent(finding.selected_share)} of the resamples of windows.`),
     make("p", {}, finding.rivals.length === 0 ? "Nothing else in the catalogue explains these data as well."
       : `These data cannot tell it from: ${finding.rivals.map(labelOf).join("; ")}.`)));

@@ -5,7 +5,7 @@ function drawForces() {
   if (forces.length === 0) {
     const other = report.drawn.findIndex((_, m) => report.unexplained[m].some((force) => force.trial === trialShown().name));
     $("forces").replaceChildren(make("p", { class: "note" },
-      `The inverse model does not exist here: ${report.drawn[state.model]} has hidden states or positions that no sensor shows. ` +
+      `Under “${report.drawn[state.model]}” the motion does not tell the motors' forces: ${withoutInverse(state.trial, state.model)}. ` +
       (other >= 0 ? `Switch to “${report.drawn[other]}” to see the force that it left.` : "")));
     return;
   }
@@ -31,5 +31,5 @@ function curve(dependence, force) {
     dependence.center.map((center, i) => makeSvg("circle", { cx: x(center), cy: y(dependence.mean[i]), r: 2.4, class: `${look}-fill` })),
     makeSvg("text", { class: "soft", x: left, y: height - 4 }, number(first)),
     makeSvg("text", { class: "soft", x: width - left, y: height - 4, "text-anchor": "end" }, withUnit(last, dependence.unit, 3)));
-  return make("figure", {}, svg, make("figcaption", {}, make("b", {}, dependence.variable), ` · ${percent(dependence.share)} · ±${withUnit(reach, force.unit, 2)}`));
+  return make("figure", {}, svg, make("figcaption", {}, make("b", {}, dependence.variable), `${dependence.of_size ? ", size of the force" : ""} · ${percent(dependence.share)} · ±${withUnit(reach, force.unit, 2)}`));
 }

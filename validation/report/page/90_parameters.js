@@ -9,10 +9,10 @@ function drawEstimates() {
   }
   const known = (p) => (p.known ? `${number(p.known.mean, 4)} ± ${number(p.known.standard_deviation, 2)}` : "nothing");
   const rows = parameters.map((p) => make("tr", {},
-    make("td", {}, p.label), make("td", {}, p.unit), make("td", { class: "number" }, p.given === null ? "–" : number(p.given, 4)),
+    make("td", {}, p.label), make("td", { class: "unit" }, p.unit), make("td", { class: "number" }, p.given === null ? "–" : number(p.given, 4)),
     make("td", { class: "number" }, known(p)),
-    make("td", { class: "number" }, `${number(p.value, 4)} ± ${number(p.standard_deviation, 2)}`),
-    make("td", { class: "number" }, `${number(p.interval[0], 4)} to ${number(p.interval[1], 4)}`),
+    make("td", { class: "number" }, `${number(p.value, digitsFor(p.value, p.standard_deviation))} ± ${number(p.standard_deviation, 2)}`),
+    make("td", { class: "number" }, p.interval.map((end) => number(end, digitsFor(end, p.standard_deviation))).join(" to ")),
     make("td", { class: "note" }, (p.assumed ? "assumed: " : "") + p.source)));
   $("estimates").replaceChildren(
     make("p", { class: "lead" }, `Fitted on ${windows} train windows. ± is one standard deviation, the interval holds ${percent(confidence)}, both from the scatter between the windows.`),

@@ -85,7 +85,7 @@ function start() {
   drawTools();
   drawSwitch();
   drawTrialChoice();
-  for (const draw of [drawLadder, drawFindings, drawRanking, drawLeads, drawEstimates, drawCorrelation, drawUntold, drawValues, drawRepetition]) draw();
+  for (const draw of [drawLadder, drawWholeTrials, drawFindings, drawRanking, drawLeads, drawEstimates, drawCorrelation, drawUntold, drawValues, drawRepetition]) draw();
   const drawTrial = () => { drawTrialChoice(); drawCharts(); drawStrip(); drawWorst(); drawSpectra(); drawForces(); };
   drawTrial();
   drawHeat();
