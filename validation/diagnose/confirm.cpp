@@ -343,8 +343,8 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
     return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %";
   };
   if (fall < options.material) {
-    return std::string("immaterial: ") + (judged ? "held-out" : "train") + " error falls by only " +
-           percent(fall);
+    const std::string error = judged ? "held-out error" : "train error";
+    return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
   }
   if (share < options.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
