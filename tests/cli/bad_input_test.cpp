@@ -177,6 +177,15 @@ INSTANTIATE_TEST_SUITE_P(
                  {},
                  {"compare", "trials/steps", "--window", "3", "--json", "out.json"},
                  {"trials/steps/trial.yaml: data: found 1000 samples, expected at least one window of 1500"}},
+        BadInput{"far_shorter_than_a_window",
+                 {},
+                 {"compare", "trials/steps", "--window", "1e30"},
+                 {"found 1000 samples, expected at least one window of ", "e+32 samples"}},
+        BadInput{
+            "a_window_of_no_sample",
+            {},
+            {"compare", "trials/steps", "--window", "1e-9"},
+            {"trials/steps/trial.yaml: data: found windows of 0 samples, expected windows of 8 or more"}},
         BadInput{
             "no_train_trial",
             {},

@@ -58,8 +58,8 @@ TEST_P(Help, ExampleUsesOnlyOptionsThatExist) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("effects", "check", "simulate", "compare", "fit", "diagnose", "add",
-                                         "ladder", "suggest", "report", "new-trial", "twin", "hop", "validate",
-                                         "render"),
+                                         "ladder", "suggest", "report", "new-trial", "twin", "hop",
+                                         "validate", "render"),
                          name_of);
 
 TEST(Program, ListsEveryCommand) {

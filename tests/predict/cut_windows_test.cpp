@@ -1,9 +1,10 @@
 // Windows of a hopping trial: through stance from flight to flight, and in flight.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
 #include "tests/predict/hopper.h"
+#include "tests/trace/refusal.h"
 #include "validation/predict/estimate.h"
 
 namespace plumbline::validation {
@@ -62,6 +63,16 @@ TEST_F(HopperWindows, WithoutASwitchAreCutAsBefore) {
   for (const Window& window : windows) {
     EXPECT_EQ(window.count, 500);
   }
+}
+
+TEST_F(HopperWindows, OfALengthThatTheTrialDoesNotHaveAreRefused) {
+  const auto asked_for = [&](double seconds) {
+    PredictOptions options;
+    options.window = seconds;
+    return plumbline::test::refusal([&] { cut_windows({trial_}, options); });
+  };
+  EXPECT_THAT(asked_for(1e-9), testing::HasSubstr("windows of 0 samples, expected windows of 8 or more"));
+  EXPECT_THAT(asked_for(1e30), testing::HasSubstr("expected at least one window of 1e+33 samples"));
 }
 
 }  // namespace

@@ -46,9 +46,8 @@ TEST(Suggest, FindsAnExperimentThatTellsALagFromADelay) {
   EXPECT_GT(best.error, 1.02);
   // What is proposed can be read again and stays within what the trials did.
   const Experiment again = parse_experiment(best.text, "best", pendulum());
-  const double reach = (data.trials[0].commands[0].values.array() - data.trials[0].commands[0].values.mean())
-                           .abs()
-                           .maxCoeff();
+  const double reach =
+      (data.trials[0].commands[0].values.array() - data.trials[0].commands[0].values.mean()).abs().maxCoeff();
   EXPECT_LE((again.commands[0].values.array() - again.commands[0].values.mean()).abs().maxCoeff(),
             2.0 * reach);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulator/trace/error.h"
+#include "simulator/trace/number_text.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -82,6 +83,20 @@ void find_events(const Trial& trial, Window& window) {
   }
 }
 
+/// Length of a window in samples. Compared before it is converted: any length may have been asked for.
+Eigen::Index window_samples(const Trial& trial, double seconds) {
+  const double length = std::round(seconds / trial.period);
+  if (!(length <= static_cast<double>(trial.samples()))) {
+    throw InputError({trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
+                     "at least one window of " + number_text(length) + " samples (--window sets its length)");
+  }
+  if (length < static_cast<double>(kShortest)) {
+    throw InputError({trial.file, 0, "data"}, "windows of " + number_text(length) + " samples",
+                     "windows of " + std::to_string(kShortest) + " or more (--window sets their length)");
+  }
+  return static_cast<Eigen::Index>(length);
+}
+
 bool on_the_ground(const Trial& trial, const Window& window) {
   return std::any_of(trial.switches.begin(), trial.switches.end(), [&](const SwitchRecord& record) {
     return record.values.segment(window.first, window.count).maxCoeff() > 0.0;
@@ -94,12 +109,7 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
   std::vector<Window> windows;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     const Trial& trial = trials[t];
-    const auto length = static_cast<Eigen::Index>(std::lround(options.window / trial.period));
-    if (trial.samples() < length) {
-      throw InputError(
-          {trial.file, 0, "data"}, std::to_string(trial.samples()) + " samples",
-          "at least one window of " + std::to_string(length) + " samples (--window sets its length)");
-    }
+    const Eigen::Index length = window_samples(trial, options.window);
     const auto begin = static_cast<std::ptrdiff_t>(windows.size());
     const std::vector<Eigen::Index> cuts = cut_points(trial);
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {

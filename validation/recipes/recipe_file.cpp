@@ -84,10 +84,10 @@ Link read_link(const FreeParameter& parameter, const YamlNode& node, const std::
       link.plus = model::read_quantity(*plus, {parameter.unit, Sign::any, false, {}}).value;
     }
     if (const auto power = node.find("power")) {
-      link.power = static_cast<int>(power->number());
       if (power->number() != 1.0 && power->number() != -1.0) {
         power->refuse("1 or -1");
       }
+      link.power = static_cast<int>(power->number());
     }
   }
   const auto unknown = std::find_if(unknowns.begin(), unknowns.end(),

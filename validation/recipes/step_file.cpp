@@ -230,6 +230,9 @@ void read_window_fit(const YamlNode& node, const Recipe& recipe, const std::set<
   read_data(node, recipe, {"experiments", "trials", "hops", "data_of"}, step);
   if (const auto window = node.find("window")) {
     step.window = read_physical(*window, "s", "the window");
+    if (!(step.window > 0.0)) {
+      window->refuse("a time above zero");
+    }
   }
   read_fit(node, recipe, given, step);
 }
