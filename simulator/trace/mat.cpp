@@ -15,6 +15,7 @@
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
+#include "simulator/trace/mat_containers.h"
 #include "simulator/trace/table.h"
 
 namespace plumbline {
@@ -203,8 +204,12 @@ void write_columns(mat_t* file, const Table& table) {
 
 Table read_mat(const std::string& path) {
   constexpr std::size_t header_bytes = 128;
-  if (read_text(path).size() < header_bytes) {
+  const std::string bytes = read_text(path);
+  if (bytes.size() < header_bytes) {
     throw InputError({path, 0, ""}, "a file shorter than a MATLAB header", "a MATLAB file, version 5 or 7.3");
+  }
+  if (const auto name = overgrown_container(bytes)) {
+    throw InputError({path, 0, *name}, "damaged data", "a whole MATLAB file");
   }
   const std::lock_guard<std::mutex> lock(quiet_matio());
   const MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));

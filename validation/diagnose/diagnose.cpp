@@ -8,6 +8,7 @@
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {
 namespace {
@@ -29,10 +30,12 @@ class Diagnoser {
     start(model, diagnosis);
     const Stage open = with_open_numbers(diagnosis.final_stage);
     take_steps(open.parameters.empty() ? options_.most_effects : options_.most_as_stated, diagnosis);
+    revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
     conclude(diagnosis);
     if (!open.parameters.empty() && !speaks_for_stated(diagnosis)) {
       fit_own(open, diagnosis);
       take_steps(options_.most_effects, diagnosis);
+      revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
       conclude(diagnosis);
     }
     if (diagnosis.verdict == Verdict::unexplained) {
@@ -258,20 +261,6 @@ class Diagnoser {
 
   bool is_finished(const Scores& scores) const {
     return judged(scores, data_) < options_.finished && scores.train < options_.finished;
-  }
-
-  static Stage without_effect(const Stage& stage, int effect) {
-    Stage without = stage;
-    without.model.effects.erase(without.model.effects.begin() + effect);
-    without.parameters.clear();
-    for (FreeParameter parameter : stage.parameters) {
-      if (parameter.id.effect == effect) {
-        continue;
-      }
-      parameter.id.effect -= parameter.id.effect > effect ? 1 : 0;
-      without.parameters.push_back(parameter);
-    }
-    return without;
   }
 
   const effects::Catalogue& catalogue_;

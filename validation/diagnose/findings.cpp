@@ -75,6 +75,9 @@ Finding finding_of(const Candidate& candidate) {
 }
 
 void set_values(const Stage& stage, const Data& data, std::vector<Finding>& findings) {
+  if (findings.empty()) {
+    return;
+  }
   PredictorPool pool(stage.model, data);
   const Eigen::VectorXd deviations =
       parameter_deviations(pool, data.windows_of(Role::train), stage.parameters, stage.estimate, nullptr);
