@@ -184,6 +184,7 @@ void write_columns(mat_t* file, const Table& table) {
                                        values.data(), 0));
   }
   std::vector<const char*> fields;
+  fields.reserve(names.size());
   for (const std::string& name : names) {
     fields.push_back(name.c_str());
   }

@@ -67,7 +67,7 @@ std::optional<std::string> overgrown_container(const std::string& bytes) {
   for (std::size_t at = kHeader; at + kTag <= bytes.size();) {
     const Bytes element(bytes, at);
     if (element.word(0) == kMatrix) {
-      if (const auto name = overgrown(element, bytes.size())) {
+      if (auto name = overgrown(element, bytes.size())) {
         return name;
       }
     }

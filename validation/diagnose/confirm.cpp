@@ -214,6 +214,7 @@ std::vector<const Hypothesis*> best_on_train(const std::vector<Refit>& refits,
                                              const std::vector<Hypothesis>& hypotheses) {
   constexpr std::size_t kBest = 3;
   std::vector<const Hypothesis*> sorted;
+  sorted.reserve(hypotheses.size());
   for (const Hypothesis& hypothesis : hypotheses) {
     sorted.push_back(&hypothesis);
   }

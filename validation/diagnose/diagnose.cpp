@@ -161,6 +161,7 @@ class Diagnoser {
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
   static std::vector<std::string> names_of(const std::vector<Finding>& findings) {
     std::vector<std::string> names;
+    names.reserve(findings.size());
     for (const Finding& finding : findings) {
       names.push_back(finding.effect + "@" + finding.at);
     }
@@ -215,6 +216,7 @@ class Diagnoser {
     }
     const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
     std::vector<Refit> refits;
+    refits.reserve(pairs.size());
     for (const Pair& pair : pairs) {
       refits.push_back(pair.refit);
     }

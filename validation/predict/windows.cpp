@@ -245,7 +245,7 @@ Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd&
 Eigen::VectorXd Predictor::squares(const Window& window, const Eigen::VectorXd& residual) const {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Map<const Matrix> by_sample(residual.data(), window.count, channels());
-  const Eigen::VectorXd sampled = by_sample.colwise().squaredNorm().transpose();
+  Eigen::VectorXd sampled = by_sample.colwise().squaredNorm().transpose();
   if (trial_.switches.empty()) {
     return sampled;
   }
