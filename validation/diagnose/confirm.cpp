@@ -208,33 +208,6 @@ std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
   return others;
 }
 
-/// Candidates that were not refitted although they promise most for the train trials. Their held-out promise
-/// is that of a straight line, which a law with a rest or a power may leave on a motion of another kind.
-std::vector<const Hypothesis*> best_on_train(const std::vector<Refit>& refits,
-                                             const std::vector<Hypothesis>& hypotheses) {
-  constexpr std::size_t kBest = 3;
-  std::vector<const Hypothesis*> sorted;
-  sorted.reserve(hypotheses.size());
-  for (const Hypothesis& hypothesis : hypotheses) {
-    sorted.push_back(&hypothesis);
-  }
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Hypothesis* a, const Hypothesis* b) {
-    return a->promised_train < b->promised_train;
-  });
-  std::vector<const Hypothesis*> best;
-  for (const Hypothesis* one : sorted) {
-    const auto same = [&](int candidate) { return candidate == one->candidate; };
-    const bool known = std::any_of(refits.begin(), refits.end(),
-                                   [&](const Refit& refit) { return same(refit.candidate); }) ||
-                       std::any_of(best.begin(), best.end(),
-                                   [&](const Hypothesis* other) { return same(other->candidate); });
-    if (!known && best.size() < kBest) {
-      best.push_back(one);
-    }
-  }
-  return best;
-}
-
 /// Of several refits of one candidate only the first, which is the best.
 void keep_best_of_each(std::vector<Refit>& refits) {
   std::vector<Refit> kept;
@@ -286,11 +259,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   }
   finish(refits, candidates, data, options, progress);
   if (!refits.empty() && !at_floor(refits, options)) {
-    std::vector<const Hypothesis*> more = other_starts(refits, hypotheses);
-    for (const Hypothesis* other : best_on_train(refits, hypotheses)) {
-      more.push_back(other);
-    }
-    for (const Hypothesis* other : more) {
+    for (const Hypothesis* other : other_starts(refits, hypotheses)) {
       add(*other, 0.9);
     }
     keep_best_of_each(refits);
