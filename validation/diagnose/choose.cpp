@@ -36,7 +36,6 @@ constexpr double kSame = 2e-3;
 /// resamples or leave the same error; of more parameters those that are surely better, if only by little.
 std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits, const Data& data,
                                    const DiagnoseOptions& options) {
-  constexpr double kFair = 0.05;
   std::vector<std::size_t> rivals;
   for (std::size_t i = 0; i < refits.size(); ++i) {
     if (i == named) {

@@ -8,6 +8,9 @@
 
 namespace plumbline::validation {
 
+/// Share of the resamples in which a law must be better to be a rival.
+constexpr double kFair = 0.05;
+
 struct Choice {
   int named = -1;                       ///< index of the refit; -1: something speaks against each of the best
   double share = 0.0;                   ///< of the resamples that choose it or one that is about as good

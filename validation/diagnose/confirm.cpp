@@ -70,7 +70,7 @@ bool on_bound(const FreeParameter& parameter, double value) {
   return value - parameter.lower < reach || parameter.upper - value < reach;
 }
 
-/// The parameters of one effect, and where they begin among all.
+/// The parameters of one effect and their fitted values.
 struct OwnPart {
   std::vector<FreeParameter> parameters;
   Eigen::VectorXd theta;

@@ -41,9 +41,6 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Name
   return tried;
 }
 
-/// Share of the resamples below which a rival is none.
-constexpr double kFair = 0.05;
-
 void drop_rival(const Candidate& candidate, Finding& finding) {
   finding.rivals.erase(std::remove_if(finding.rivals.begin(), finding.rivals.end(),
                                       [&](const Named& rival) { return is_named(candidate, rival); }),

@@ -9,12 +9,11 @@ namespace plumbline::validation {
 namespace {
 
 const Eigen::VectorXd& values_of(const Table& trace, const std::string& name) {
-  for (const Column& column : trace.columns) {
-    if (column.name == name) {
-      return column.values;
-    }
+  const Column* column = trace.find(name);
+  if (column == nullptr) {
+    throw InputError("the trace has no column " + name);
   }
-  throw InputError("the trace has no column " + name);
+  return column->values;
 }
 
 }  // namespace
