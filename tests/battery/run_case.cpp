@@ -116,10 +116,17 @@ bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::E
   return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front());
 }
 
+/// The ladder's last model before anything was added: its own numbers are fitted, where they are free.
+const validation::Rung& bare_rung(const validation::Diagnosis& diagnosis) {
+  const auto added = std::find_if(diagnosis.ladder.begin(), diagnosis.ladder.end(),
+                                  [](const validation::Rung& rung) { return rung.name.rfind("+ ", 0) == 0; });
+  return *std::prev(added);
+}
+
 void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   result.after = diagnosis.final_stage.estimate.scores.held_out;
-  result.before = diagnosis.accepted.empty() ? result.after : diagnosis.accepted.front().held_out_before;
+  result.before = bare_rung(diagnosis).foretold();
   result.visible = result.before >= kVisible;
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;

@@ -63,6 +63,10 @@ TEST(HoppingFile, BadFilesAreRefused) {
   EXPECT_THAT(refusal(with(shipped(), "unit: ms", "unit: kg")), HasSubstr("period"));
   EXPECT_THAT(refusal(with(shipped(), "controller: hopping", "controller: walking")), HasSubstr("walking"));
   EXPECT_THAT(refusal(with(shipped(), "leg_angle: joints", "leg_angle: toes")), HasSubstr("joints or motor"));
+  EXPECT_THAT(refusal(with(shipped(), "contact_samples: {value: 1,", "contact_samples: {value: 1.5,")),
+              AllOf(HasSubstr("contact_samples"), HasSubstr("1.5"), HasSubstr("whole number")));
+  EXPECT_THAT(refusal(with(shipped(), "contact_samples: {value: 1,", "contact_samples: {value: 1e300,")),
+              HasSubstr("contact_samples"));
   EXPECT_THAT(refusal(with(shipped(), "controller/1", "controller/2")), HasSubstr("controller/1"));
   EXPECT_THAT(refusal(shipped().substr(0, 900)), HasSubstr("hopping.yaml"));
 }

@@ -13,8 +13,8 @@ Diagnosis found(std::vector<std::string> effects, Verdict verdict, double before
   Diagnosis diagnosis;
   diagnosis.verdict = verdict;
   diagnosis.ladder.resize(2);  // train errors stay 0
-  diagnosis.ladder[0].stage.estimate.scores.held_out = before;
-  diagnosis.ladder[1].stage.estimate.scores.held_out = after;
+  diagnosis.ladder[0].stage.estimate.predicted.scores.held_out = before;
+  diagnosis.ladder[1].stage.estimate.predicted.scores.held_out = after;
   for (const std::string& effect : effects) {
     Finding finding;
     finding.effect = effect;

@@ -68,7 +68,7 @@ void add_check(CLI::App& app, Outcome& /*outcome*/) {
   command
       ->add_option("--density", options->density,
                    "for a model: of the links' meshes, kg/m^3; left out, the one that gives each its mass")
-      ->check(CLI::PositiveNumber)
+      ->check(between(1e-3, 1e6))
       ->type_name("DENSITY");
   add_json_option(*command, options->json);
   command->footer("Example:\n  plumbline check robots/mabel/leg_bench.yaml");

@@ -59,7 +59,7 @@ void print_verdict(const Diagnosis& diagnosis) {
   const validation::Rung& last = diagnosis.ladder.back();
   if (diagnosis.interrupted && diagnosis.accepted.empty()) {
     fmt::print("No effect had been accepted yet; the held-out error so far is {:.2f} times the floor.\n",
-               last.held_out());
+               last.foretold());
     return;
   }
   const std::string verdict = validation::verdict_sentence(diagnosis);
@@ -80,13 +80,13 @@ void print_verdict(const Diagnosis& diagnosis) {
       fmt::print("\n");
     }
   }
-  if (diagnosis.accepted.empty() || last.held_out() <= 0.0) {
+  if (diagnosis.accepted.empty() || last.foretold() <= 0.0) {
     return;
   }
   fmt::print(
       "In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
       "above the floor stays unexplained.\n",
-      first.held_out(), last.held_out(), 100.0 * diagnosis.unexplained_share);
+      first.foretold(), last.foretold(), 100.0 * diagnosis.unexplained_share);
 }
 
 void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
@@ -132,9 +132,13 @@ void print(const Diagnosis& diagnosis) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const validation::Rung& rung : diagnosis.ladder) {
-    rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out())});
+    rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out()),
+                    fmt::format("{:.3f}", rung.foretold())});
   }
-  print_table({"model", "train", "held-out"}, rows);
+  print_table({"model", "train", "held-out", "foretold"}, rows);
+  fmt::print(
+      "\nHeld-out: at the values that are best for the train trials. Foretold: with what the train trials "
+      "leave open\nof the values; this one decides.\n");
   print_own_parameters(validation::own_values(diagnosis.final_stage));
   if (!diagnosis.ranking.empty()) {
     fmt::print("\nBest candidates of the first round, of {} screened:\n\n", diagnosis.candidates);

@@ -217,6 +217,7 @@ void run_search(const Options& options, const model::Model& model, const control
 void run(Options options) {
   check_trace_file(options.out);
   check_writable(options.json);
+  check_new_folder(options.record);
   check_not_an_input(options.out, {options.model, options.controller});
   const bool keeps_samples = !options.out.empty() || !options.record.empty();
   if (keeps_samples && (options.starts > 1 || options.search > 0)) {
@@ -256,11 +257,13 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
       ->type_name("FILE");
   command->add_option("--drop", options->start.drop, "height of the lower foot at the start, m")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(between(0.0, 1.0));
   command->add_option("--speed", options->start.speed, "forward speed at the start, m/s")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(between(-10.0, 10.0));
   command->add_option("--torso", options->start.torso, "torso beyond its nominal angle at the start, rad")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(between(-1.6, 1.6));
   command->add_option("--hops", options->run.hops, "end a run after so many hops")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -283,20 +286,21 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
   command->add_flag("--sides", options->sides, "with --search: left and right may have different gains");
   command->add_option("--width", options->width, "with --search: first standard deviation, in the logarithm")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 2.0));
+      ->check(between(0.01, 2.0));
   command->add_option("--seed", options->seed, "seed of starts and search")->capture_default_str();
   command
       ->add_option("--tolerance", options->run.integrator.relative_tolerance,
                    "relative tolerance of the integrator")
       ->capture_default_str()
-      ->check(CLI::Range(1e-13, 1e-1));
+      ->check(between(1e-13, 1e-1));
   command->add_option("-o,--out", options->out, "write the trace of a single run to FILE (.csv or .mat)")
       ->type_name("FILE");
   command
       ->add_option("--record", options->record,
                    "write a single run to the folder DIR as a trial: what the robot's sensors would record")
       ->type_name("DIR");
-  command->add_option("--role", options->role, "with --record: train or held-out")
+  command->add_option("--role", options->role, "train or held-out")
+      ->needs("--record")
       ->transform(CLI::CheckedTransformer(std::map<std::string, validation::Role>{
           {"train", validation::Role::train}, {"held-out", validation::Role::held_out}}))
       ->type_name("ROLE");

@@ -270,17 +270,17 @@ void add_choices(CLI::App& command, Options& options) {
       ->type_name("NAME");
   command.add_option("--slow", options.slow, "slow motion: a second takes so many")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(between(0.01, 1000.0));
   command.add_option("--fps", options.rate, "frames in a second of video")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 240.0));
+      ->check(between(1.0, 240.0));
   command.add_option("--size", options.size, "of the picture, pixels")
       ->capture_default_str()
       ->type_name("WxH");
   command.add_option("--strip", options.strip, "a still of so many stick figures from --from to --to")
       ->check(CLI::Range(2, 200));
   command.add_option("--exaggerate", options.exaggeration, "cable stretch is drawn so many times larger")
-      ->check(CLI::Range(0.01, 1e6));
+      ->check(between(0.01, 1e6));
   command
       .add_option("--platform", options.platforms,
                   "a step in the ground: from and to, height, m (again for more)")
@@ -306,7 +306,7 @@ void add_render(CLI::App& app, Outcome& /*outcome*/) {
   command->add_flag("--whole", options->whole, "simulate the trial in one piece, not in windows");
   command->add_option("--window", options->window, "length of the windows, s")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(between(0.01, 1000.0));
   add_choices(*command, *options);
   add_json_option(*command, options->json);
   command->footer(

@@ -146,7 +146,7 @@ void add_method(CLI::App& command, integrate::Options& options) {
       ->type_name("METHOD");
   command.add_option("--tolerance", options.relative_tolerance, "relative tolerance of the integrator")
       ->capture_default_str()
-      ->check(CLI::Range(1e-13, 1e-1))
+      ->check(between(1e-13, 1e-1))
       ->type_name("NUMBER");
 }
 

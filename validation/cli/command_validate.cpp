@@ -198,13 +198,13 @@ void add_numbers(CLI::App& command, Options& options) {
       ->check(CLI::NonNegativeNumber);
   command.add_option("--within", options.run.share, "share within which they are drawn")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(between(0.0, 0.5));
   command.add_option("--seed", options.run.seed, "seed of starts and drawn robots")->capture_default_str();
   command
       .add_option("--tolerance", options.run.run.integrator.relative_tolerance,
                   "relative tolerance of the integrator")
       ->capture_default_str()
-      ->check(CLI::Range(1e-13, 1e-1));
+      ->check(between(1e-13, 1e-1));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
+#include "validation/trial/new_folder.h"
 
 namespace plumbline::cli {
 namespace {
@@ -29,6 +30,17 @@ void check_writable(const std::string& file) {
       }
       throw CanBeWritten();
     });
+  } catch (const CanBeWritten&) {
+    return;
+  }
+}
+
+void check_new_folder(const std::string& folder) {
+  if (folder.empty()) {
+    return;
+  }
+  try {
+    validation::write_new_folder(folder, [](const std::string& /*temporary*/) { throw CanBeWritten(); });
   } catch (const CanBeWritten&) {
     return;
   }

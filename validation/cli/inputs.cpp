@@ -1,5 +1,7 @@
 #include "validation/cli/inputs.h"
 
+#include <fmt/core.h>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -13,6 +15,16 @@ void add_json_option(CLI::App& command, std::string& json) {
   command.add_option("--json", json, "write what is printed to FILE, machine-readable")->type_name("FILE");
 }
 
+CLI::Validator between(double least, double most) {
+  return CLI::Validator(
+      [least, most](const std::string& text) {
+        double value = 0.0;
+        const bool inside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return inside ? "" : fmt::format("found {}, expected a number from {} to {}", text, least, most);
+      },
+      fmt::format("FLOAT in [{} - {}]", least, most));
+}
+
 void add_data_inputs(CLI::App& command, Inputs& inputs) {
   command.add_option("trial", inputs.trials, "trial folders (or their trial.yaml)")
       ->required()
@@ -20,7 +32,7 @@ void add_data_inputs(CLI::App& command, Inputs& inputs) {
   command.add_option("--data", inputs.data_folder, "folder with the trials' data files")->type_name("DIR");
   command.add_option("--window", inputs.window, "length of the prediction windows, s")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(between(1e-9, 1e6));
   add_json_option(command, inputs.json);
 }
 

@@ -25,6 +25,8 @@ struct Inputs {
 void add_data_inputs(CLI::App& command, Inputs& inputs);
 /// The same and --model.
 void add_trial_inputs(CLI::App& command, Inputs& inputs);
+/// A finite number from `least` to `most` (CLI::Range lets "nan" pass).
+CLI::Validator between(double least, double most);
 void add_json_option(CLI::App& command, std::string& json);
 
 effects::Catalogue catalogue_for(const Inputs& inputs);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumbline::validation {
 namespace {
@@ -18,15 +19,47 @@ std::pair<int, int> complexity(const Refit& refit) {
   return {refit.own, constants};
 }
 
-/// Refits that predict as well as the best, or nearly: a simpler law is named before them.
-std::vector<std::size_t> near_best(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
+/// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them.
+std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
+                                   const std::vector<std::size_t>& contenders,
+                                   const DiagnoseOptions& options) {
   std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < refits.size(); ++i) {
-    if (together(refits[i]) < (1.0 + options.simpler) * together(refits.front())) {
+  for (const std::size_t i : contenders) {
+    if (together(refits[i]) < (1.0 + options.simpler) * together(refits[contenders.front()])) {
       near.push_back(i);
     }
   }
   return near;
+}
+
+/// The refits that are left when those with a flaw are out: a law that cannot be true takes no share from one
+/// that can. Only those that would win a share or the name are looked at, until none of them has a flaw.
+std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Refit>& refits,
+                                        const Data& data, const DiagnoseOptions& options, Choice& choice) {
+  std::vector<std::size_t> contenders(refits.size());
+  std::iota(contenders.begin(), contenders.end(), std::size_t{0});
+  std::vector<bool> seen(refits.size(), false);
+  for (bool all_seen = false; !all_seen && !contenders.empty();) {
+    all_seen = true;
+    choice.shares = selected_shares(stage, refits, contenders, data, options);
+    std::vector<std::size_t> asked = near_best(refits, contenders, options);
+    for (const std::size_t i : contenders) {
+      if (choice.shares[i] > kFair) {
+        asked.push_back(i);
+      }
+    }
+    for (const std::size_t i : asked) {
+      if (!seen[i]) {
+        seen[i] = true;
+        choice.objections[i] = flaw(refits[i], data);
+        all_seen = all_seen && choice.objections[i].empty();
+      }
+    }
+    contenders.erase(std::remove_if(contenders.begin(), contenders.end(),
+                                    [&](std::size_t i) { return !choice.objections[i].empty(); }),
+                     contenders.end());
+  }
+  return contenders;
 }
 
 /// Relative difference of squared errors that the searches themselves may leave.
@@ -34,10 +67,11 @@ constexpr double kSame = 2e-3;
 
 /// What these data cannot tell from the named law: of no more parameters those that win in a fair share of
 /// resamples or leave the same error; of more parameters those that are surely better, if only by little.
-std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits, const Data& data,
+std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits,
+                                   const std::vector<std::size_t>& contenders, const Data& data,
                                    const DiagnoseOptions& options) {
   std::vector<std::size_t> rivals;
-  for (std::size_t i = 0; i < refits.size(); ++i) {
+  for (const std::size_t i : contenders) {
     if (i == named) {
       continue;
     }
@@ -53,8 +87,8 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
 
 }  // namespace
 
-double judged(const Scores& scores, const Data& data) {
-  return data.has(Role::held_out) ? scores.held_out : scores.train;
+double judged(const Estimate& estimate, const Data& data) {
+  return data.has(Role::held_out) ? estimate.predicted.scores.held_out : estimate.scores.train;
 }
 
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
@@ -63,15 +97,20 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   if (refits.empty()) {
     return choice;
   }
-  choice.shares = selected_shares(stage, refits, data, options);
-  std::vector<std::size_t> near = near_best(refits, options);
+  choice.shares.assign(refits.size() + 1, 0.0);
+  choice.objections.assign(refits.size(), "");
+  const std::vector<std::size_t> contenders = without_flawed(stage, refits, data, options, choice);
+  if (contenders.empty()) {
+    return choice;
+  }
+  std::vector<std::size_t> near = near_best(refits, contenders, options);
   for (const std::size_t i : near) {
     choice.share += choice.shares[i];
   }
-  for (std::size_t i = 0; i < refits.size(); ++i) {
+  for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
-    choice.objections.push_back(
-        objection(stage, refits[i], is_near ? choice.share : choice.shares[i], data, options));
+    choice.objections[i] =
+        objection(stage, refits[i], is_near ? choice.share : choice.shares[i], data, options);
   }
   std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
     return complexity(refits[a]) < complexity(refits[b]);
@@ -80,7 +119,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
       std::find_if(near.begin(), near.end(), [&](std::size_t i) { return choice.objections[i].empty(); });
   if (named != near.end()) {
     choice.named = static_cast<int>(*named);
-    choice.rivals = rivals_of(*named, refits, data, options);
+    choice.rivals = rivals_of(*named, refits, contenders, data, options);
   }
   return choice;
 }

@@ -19,12 +19,13 @@ struct Choice {
   std::vector<std::string> objections;  ///< by refit: why it is not named; empty when it could be
 };
 
-/// Of the refits (best first) that are about as good as the best, the one with the fewest parameters is named
-/// (a law that contains another is not preferred to it for an immaterial gain), if nothing speaks against it.
+/// Of the refits (best first) without a flaw that are about as good as the best, the one with the fewest
+/// parameters is named (a law that contains another is not preferred to it for an immaterial gain), if
+/// nothing speaks against it.
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options);
 
-/// The error that counts: held-out where there is one.
-double judged(const Scores& scores, const Data& data);
+/// The error that counts: held-out, as foretold, where there is one.
+double judged(const Estimate& estimate, const Data& data);
 
 }  // namespace plumbline::validation

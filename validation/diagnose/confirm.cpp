@@ -76,29 +76,30 @@ struct OwnPart {
   Eigen::VectorXd theta;
 };
 
-OwnPart part_of(const Refit& refit, int effect) {
+OwnPart part_of(const Refit& refit, const Eigen::VectorXd& theta, int effect) {
   OwnPart part;
   std::vector<double> values;
   for (std::size_t p = 0; p < refit.extended.parameters.size(); ++p) {
     if (refit.extended.parameters[p].id.effect == effect) {
       part.parameters.push_back(refit.extended.parameters[p]);
-      values.push_back(refit.estimate.theta[static_cast<Eigen::Index>(p)]);
+      values.push_back(theta[static_cast<Eigen::Index>(p)]);
     }
   }
   part.theta = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return part;
 }
 
-/// Change of an added effect's parameters that the held-out windows alone would ask for, relative.
+/// Change of an added effect's parameters that the held-out windows alone would ask for, relative, after
+/// everything has moved as far towards them as the train windows leave open.
 double disagreement(const Refit& refit, int effect, const Data& data) {
   const std::vector<int> windows = data.windows_of(Role::held_out);
-  const OwnPart own = part_of(refit, effect);
+  const Eigen::VectorXd& theta = refit.estimate.predicted.theta;
+  const OwnPart own = part_of(refit, theta, effect);
   const Eigen::Index n = own.theta.size();
   if (windows.empty() || n == 0) {
     return 0.0;
   }
-  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
-                     data);
+  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, theta), data);
   const Eigen::VectorXd units = search_units(own.parameters, own.theta);
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
@@ -147,12 +148,24 @@ std::string undecided(const Refit& refit, const Data& data) {
 /// A lone parameter of an added effect that is on its bound; empty when there is none.
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {
-    const OwnPart own = part_of(refit, effect);
+    const OwnPart own = part_of(refit, refit.estimate.theta, effect);
     if (own.parameters.size() == 1 && on_bound(own.parameters.front(), own.theta[0])) {
       return own.parameters.front().label;
     }
   }
   return "";
+}
+
+/// What `check` says of a refit, if the model can be integrated close to its values.
+template <typename Check>
+std::string unless_unsteady(const Check& check) {
+  try {
+    return check();
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return "unsteady: close to its fitted values it cannot be integrated";
+  }
 }
 
 void sort_by_error(std::vector<Refit>& refits) {
@@ -287,17 +300,18 @@ Stage after(const Refit& refit) {
           refit.extended.parameters, refit.estimate};
 }
 
-std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits,
+                                    const std::vector<std::size_t>& contenders, const Data& data,
                                     const DiagnoseOptions& options) {
   std::mt19937_64 random(options.seed);
   std::vector<double> shares(refits.size() + 1, 0.0);
   const double keep = (1.0 - options.material) * (1.0 - options.material);
   for (int r = 0; r < options.resamples; ++r) {
     const std::vector<int> times = draw(data, random);
-    double best = keep * drawn_square(data, stage.estimate.square, times);
+    double best = keep * drawn_square(data, stage.estimate.predicted.square, times);
     std::size_t winner = refits.size();
-    for (std::size_t i = 0; i < refits.size(); ++i) {
-      const double square = drawn_square(data, refits[i].estimate.square, times);
+    for (const std::size_t i : contenders) {
+      const double square = drawn_square(data, refits[i].estimate.predicted.square, times);
       if (square < best) {
         best = square;
         winner = i;
@@ -313,7 +327,8 @@ double share_better(const Refit& other, const Refit& best, const Data& data, con
   double share = 0.0;
   for (int r = 0; r < options.resamples; ++r) {
     const std::vector<int> times = draw(data, random);
-    if (drawn_square(data, other.estimate.square, times) < drawn_square(data, best.estimate.square, times)) {
+    if (drawn_square(data, other.estimate.predicted.square, times) <
+        drawn_square(data, best.estimate.predicted.square, times)) {
       share += 1.0 / options.resamples;
     }
   }
@@ -325,7 +340,7 @@ std::pair<double, double> resampled_error(const Refit& refit, Role role, const D
   std::mt19937_64 random(options.seed);
   std::vector<double> errors;
   for (int r = 0; r < options.resamples; ++r) {
-    const Scores scores = drawn_scores(data, refit.estimate.square, draw(data, random));
+    const Scores scores = drawn_scores(data, refit.estimate.predicted.square, draw(data, random));
     errors.push_back(role == Role::train ? scores.train : scores.held_out);
   }
   std::sort(errors.begin(), errors.end());
@@ -333,10 +348,21 @@ std::pair<double, double> resampled_error(const Refit& refit, Role role, const D
   return {errors[tail], errors[errors.size() - 1 - tail]};
 }
 
+std::string flaw(const Refit& refit, const Data& data) {
+  const std::string bound = unphysical(refit);
+  if (!bound.empty()) {
+    return "unphysical: " + bound + " is at its bound";
+  }
+  return unless_unsteady([&]() -> std::string {
+    const std::string open = undecided(refit, data);
+    return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
+  });
+}
+
 std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
                       const DiagnoseOptions& options) {
-  const Scores& before = stage.estimate.scores;
-  const Scores& after = refit.estimate.scores;
+  const Scores& before = stage.estimate.predicted.scores;
+  const Scores& after = refit.estimate.predicted.scores;
   const bool judged = data.has(Role::held_out);
   const double fall = judged ? 1.0 - after.held_out / before.held_out : 1.0 - after.train / before.train;
   const auto percent = [](double value) {
@@ -349,24 +375,15 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   if (share < options.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
   }
-  const std::string bound = unphysical(refit);
-  if (!bound.empty()) {
-    return "unphysical: " + bound + " is at its bound";
-  }
-  try {
+  return unless_unsteady([&]() -> std::string {
     for (const int effect : refit.added) {
       const double apart = disagreement(refit, effect, data);
       if (apart > options.consistent) {
         return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
       }
     }
-    const std::string open = undecided(refit, data);
-    return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return "unsteady: close to its fitted values it cannot be integrated";
-  }
+    return "";
+  });
 }
 
 }  // namespace plumbline::validation

@@ -17,9 +17,10 @@ struct Refit {
   Estimate estimate;
   std::vector<int> added;  ///< the candidates' effects in the extended model
   int own = 0;             ///< number of their parameters (the last ones)
+  /// Mean squares of train and of held-out as foretold, floor units: what refits are compared by.
   double square() const {
-    return estimate.scores.train * estimate.scores.train +
-           estimate.scores.held_out * estimate.scores.held_out;
+    const Scores& scores = estimate.predicted.scores;
+    return scores.train * scores.train + scores.held_out * scores.held_out;
   }
 };
 
@@ -35,9 +36,11 @@ Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& se
 /// The stage that a refit leads to.
 Stage after(const Refit& refit);
 
-/// For each refit the share of block resamples (windows drawn with replacement) in which it is the best; the
-/// stage itself stands for "none" and wins unless a refit is material. Last entry: the share of "none".
-std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
+/// For each refit the share of block resamples (windows drawn with replacement) in which it is the best of
+/// the `contenders`; the stage itself stands for "none" and wins unless a refit is material. Last entry: the
+/// share of "none".
+std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits,
+                                    const std::vector<std::size_t>& contenders, const Data& data,
                                     const DiagnoseOptions& options);
 
 /// Between which values 90 % of the resamples have the error of one role, in units of the floor.
@@ -47,7 +50,11 @@ std::pair<double, double> resampled_error(const Refit& refit, Role role, const D
 /// Share of resamples in which `other` predicts better than `best`.
 double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options);
 
-/// Empty when the refit may be accepted, otherwise the reason in a few words.
+/// Why a refit cannot be the law that it claims, whatever the others do, in a few words: a value at its
+/// bound, or one that cannot be told from no effect. Empty when nothing is wrong with it.
+std::string flaw(const Refit& refit, const Data& data);
+
+/// Why a refit without a flaw may not be accepted; empty when it may.
 std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
                       const DiagnoseOptions& options);
 

@@ -13,8 +13,8 @@
 namespace plumbline::validation {
 namespace {
 
-bool at_floor(const Scores& scores, const Data& data, const DiagnoseOptions& options) {
-  return judged(scores, data) < options.at_floor && scores.train < options.at_floor;
+bool at_floor(const Estimate& estimate, const Data& data, const DiagnoseOptions& options) {
+  return judged(estimate, data) < options.at_floor && estimate.scores.train < options.at_floor;
 }
 
 class Diagnoser {
@@ -56,9 +56,9 @@ class Diagnoser {
       for (std::size_t r = 1; r < diagnosis.ladder.size(); ++r) {
         if (diagnosis.ladder[r].name == "+ " + finding.effect + "@" + finding.at) {
           finding.train_before = diagnosis.ladder[r - 1].train();
-          finding.held_out_before = diagnosis.ladder[r - 1].held_out();
+          finding.held_out_before = diagnosis.ladder[r - 1].foretold();
           finding.train_after = diagnosis.ladder[r].train();
-          finding.held_out_after = diagnosis.ladder[r].held_out();
+          finding.held_out_after = diagnosis.ladder[r].foretold();
         }
       }
     }
@@ -74,7 +74,7 @@ class Diagnoser {
       PredictorPool pool(without.model, all);
       without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
                                       {}, {10, 1e-3});
-      const double rise = judged(without.estimate.scores, all) / judged(stage.estimate.scores, all) - 1.0;
+      const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
       if (rise < options_.material) {
         diagnosis.ladder.push_back(
             {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
@@ -87,8 +87,8 @@ class Diagnoser {
   }
 
   void conclude(Diagnosis& diagnosis) const {
-    const double before = judged(diagnosis.ladder[bare_rungs(diagnosis) - 1].stage.estimate.scores, data_);
-    const double after = judged(diagnosis.final_stage.estimate.scores, data_);
+    const double before = judged(diagnosis.ladder[bare_rungs(diagnosis) - 1].stage.estimate, data_);
+    const double after = judged(diagnosis.final_stage.estimate, data_);
     const double excess = before * before - 1.0;
     diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
     if (diagnosis.accepted.empty()) {
@@ -121,7 +121,7 @@ class Diagnoser {
 
   void take_steps(int most, Diagnosis& diagnosis) {
     for (int round = 0; round < most; ++round) {
-      if (at_floor(diagnosis.final_stage.estimate.scores, data_, options_) || !step(diagnosis, round)) {
+      if (at_floor(diagnosis.final_stage.estimate, data_, options_) || !step(diagnosis, round)) {
         break;
       }
     }
@@ -198,7 +198,7 @@ class Diagnoser {
     for (const std::size_t i : choice.rivals) {
       add_rival(tried.candidates[static_cast<std::size_t>(tried.refits[i].candidate)], finding);
     }
-    set_errors(tried.stage.estimate.scores, refit.estimate.scores, finding);
+    set_errors(tried.stage.estimate, refit.estimate, finding);
     const Stage next = after(refit);
     std::vector<Finding> accepted = diagnosis.accepted;
     accepted.push_back(finding);
@@ -211,7 +211,7 @@ class Diagnoser {
   /// Two effects at once, from the model with nothing added. They are an answer only at the floor: any two
   /// laws help where nothing fits.
   void look_for_pair(Diagnosis& diagnosis) const {
-    if (first_.refits.empty() || is_finished(first_.refits.front().estimate.scores)) {
+    if (first_.refits.empty() || is_finished(first_.refits.front().estimate)) {
       return;
     }
     const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
@@ -231,9 +231,9 @@ class Diagnoser {
     PredictorPool pool(single.model, data_);
     single.estimate =
         gauss_newton(pool, single.parameters, values_of(single.model, single.parameters), {}, {10, 1e-3});
-    const bool needed = judged(both.estimate.scores, data_) <
-                        (1.0 - options_.material) * judged(single.estimate.scores, data_);
-    if (is_finished(both.estimate.scores) && needed) {
+    const bool needed =
+        judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
+    if (is_finished(both.estimate) && needed) {
       accept_pair(pairs, choice, single, diagnosis);
     }
   }
@@ -241,11 +241,11 @@ class Diagnoser {
   void accept_pair(const std::vector<Pair>& pairs, const Choice& choice, const Stage& single,
                    Diagnosis& diagnosis) const {
     const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
-    const Scores& before = first_.stage.estimate.scores;
+    const Estimate& before = first_.stage.estimate;
     Finding first = finding_of(pair.first);
     Finding second = finding_of(pair.second);
-    set_errors(before, single.estimate.scores, first);
-    set_errors(single.estimate.scores, pair.refit.estimate.scores, second);
+    set_errors(before, single.estimate, first);
+    set_errors(single.estimate, pair.refit.estimate, second);
     first.selected_share = second.selected_share = choice.share;
     first.together_with = pair.second.label();
     second.together_with = pair.first.label();
@@ -261,8 +261,8 @@ class Diagnoser {
     diagnosis.accepted = accepted;
   }
 
-  bool is_finished(const Scores& scores) const {
-    return judged(scores, data_) < options_.finished && scores.train < options_.finished;
+  bool is_finished(const Estimate& estimate) const {
+    return judged(estimate, data_) < options_.finished && estimate.scores.train < options_.finished;
   }
 
   const effects::Catalogue& catalogue_;

@@ -35,7 +35,8 @@ struct Named {
   std::string effect, at;
 };
 
-/// One accepted effect.
+/// One accepted effect. Held-out errors are those that the train trials foretell with what they leave open of
+/// the values (validation/predict/foretell.h); the ladder has those at the best values for train as well.
 struct Finding {
   std::string effect, at;
   std::vector<ParameterValue> parameters;
@@ -50,7 +51,7 @@ struct Finding {
 struct RankRow {
   std::string effect, at;
   double score = 0.0;  ///< mean square of train and held-out together with this effect added, floor units
-  double held_out_after = 0.0;
+  double held_out_after = 0.0;  ///< foretold
   double train_after = 0.0;
   bool refitted = false;  ///< false: promised by the linearisation only
   std::string remark;     ///< why it was not accepted
@@ -62,7 +63,7 @@ struct RankRow {
 /// Two effects that were refitted together because one after the other led nowhere.
 struct PairRow {
   Named first, second;
-  double train_after = 0.0, held_out_after = 0.0;
+  double train_after = 0.0, held_out_after = 0.0;  ///< held-out: foretold
   double selected_share = 0.0;
   std::string remark;  ///< why they were not accepted
 };
@@ -72,6 +73,7 @@ struct Rung {
   Stage stage;
   double train() const { return stage.estimate.scores.train; }
   double held_out() const { return stage.estimate.scores.held_out; }
+  double foretold() const { return stage.estimate.predicted.scores.held_out; }
 };
 
 enum class Verdict { missing, nothing_missing, unexplained };

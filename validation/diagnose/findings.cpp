@@ -31,7 +31,7 @@ std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const 
     done[c] = true;
     RankRow row = row_of(tried.candidates[c]);
     row.score = refit.square();
-    row.held_out_after = refit.estimate.scores.held_out;
+    row.held_out_after = refit.estimate.predicted.scores.held_out;
     row.train_after = refit.estimate.scores.train;
     row.refitted = true;
     row.remark = choice.objections[i];
@@ -56,7 +56,7 @@ std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const 
 std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& choice) {
   std::vector<PairRow> rows;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Scores& scores = pairs[i].refit.estimate.scores;
+    const Scores& scores = pairs[i].refit.estimate.predicted.scores;
     rows.push_back({name_of(pairs[i].first), name_of(pairs[i].second), scores.train, scores.held_out,
                     choice.shares[i], choice.objections[i]});
   }
@@ -95,11 +95,11 @@ void set_values(const Stage& stage, const Data& data, std::vector<Finding>& find
   }
 }
 
-void set_errors(const Scores& before, const Scores& after, Finding& finding) {
-  finding.train_before = before.train;
-  finding.held_out_before = before.held_out;
-  finding.train_after = after.train;
-  finding.held_out_after = after.held_out;
+void set_errors(const Estimate& before, const Estimate& after, Finding& finding) {
+  finding.train_before = before.scores.train;
+  finding.held_out_before = before.predicted.scores.held_out;
+  finding.train_after = after.scores.train;
+  finding.held_out_after = after.predicted.scores.held_out;
 }
 
 void add_rival(const Candidate& rival, Finding& finding) {

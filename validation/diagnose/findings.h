@@ -20,7 +20,7 @@ Finding finding_of(const Candidate& candidate);
 /// The values of the findings' effects, which are the last ones of the stage's model, with deviations.
 void set_values(const Stage& stage, const Data& data, std::vector<Finding>& findings);
 
-void set_errors(const Scores& before, const Scores& after, Finding& finding);
+void set_errors(const Estimate& before, const Estimate& after, Finding& finding);
 
 void add_rival(const Candidate& rival, Finding& finding);
 

@@ -57,7 +57,7 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   if (1.0 - share > kFair) {
     finding.rivals.push_back({old.effect, old.at});
   }
-  set_errors(without.estimate.scores, winner.refit.estimate.scores, finding);
+  set_errors(without.estimate, winner.refit.estimate, finding);
   std::vector<Finding> accepted = diagnosis.accepted;
   accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(index));
   accepted.push_back(finding);

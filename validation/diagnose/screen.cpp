@@ -27,7 +27,7 @@ double share_of_error(const Stage& stage, const std::vector<int>& windows, const
     double samples = 0.0;
     for (const int w : some) {
       if (data.role(static_cast<std::size_t>(w)) == role) {
-        const Eigen::VectorXd& square = stage.estimate.square[static_cast<std::size_t>(w)];
+        const Eigen::VectorXd& square = stage.estimate.predicted.square[static_cast<std::size_t>(w)];
         sum += square.sum();
         samples += static_cast<double>(data.windows[static_cast<std::size_t>(w)].count * square.size());
       }
@@ -67,9 +67,10 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
     bounds.upper[p] = std::min(bounds.upper[p], 1.0);
   }
   const Prior known = prior(extended.parameters, units, extended.theta);
-  hypothesis.step = solve_chosen(train, chosen, known, bounds);
-  hypothesis.promised_train = promised_square(train, chosen, hypothesis.step) / part.train_share;
-  hypothesis.promised_held_out = promised_square(held_out, chosen, hypothesis.step) / part.held_out_share;
+  const Promise promise = promise_of(train, held_out, chosen, known, bounds);
+  hypothesis.step = promise.step;
+  hypothesis.promised_train = promise.train / part.train_share;
+  hypothesis.promised_held_out = promise.held_out / part.held_out_share;
 }
 
 void sort_by_promise(std::vector<Hypothesis>& hypotheses) {

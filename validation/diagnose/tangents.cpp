@@ -27,17 +27,17 @@ struct Remaining {
   Eigen::VectorXd g;
 };
 
-Remaining without_stage(const Sum& train, const Prior& known, Eigen::Index count) {
-  const Eigen::Index rest = train.g.size() - count;
-  Remaining left{train.H.bottomRightCorner(rest, rest), train.g.tail(rest)};
+Remaining without_stage(const Sum& all, const Prior& known, Eigen::Index count) {
+  const Eigen::Index rest = all.g.size() - count;
+  Remaining left{all.H.bottomRightCorner(rest, rest), all.g.tail(rest)};
   if (count > 0) {
-    Eigen::MatrixXd own = train.H.topLeftCorner(count, count);
+    Eigen::MatrixXd own = all.H.topLeftCorner(count, count);
     own.diagonal() += known.H.head(count);
     own.diagonal().array() += 1e-9 * own.diagonal().maxCoeff();
     const Eigen::LDLT<Eigen::MatrixXd> first(own);
-    const Eigen::MatrixXd cross = train.H.bottomLeftCorner(rest, count);
+    const Eigen::MatrixXd cross = all.H.bottomLeftCorner(rest, count);
     left.H.noalias() -= cross * first.solve(cross.transpose());
-    left.g.noalias() -= cross * first.solve(train.g.head(count) + known.g.head(count));
+    left.g.noalias() -= cross * first.solve(all.g.head(count) + known.g.head(count));
   }
   return left;
 }
@@ -102,9 +102,7 @@ Tangents::Solution Tangents::solve(const std::vector<std::size_t>& some) const {
   for (const std::size_t h : some) {
     solution.chosen.insert(solution.chosen.end(), moving_[h].begin(), moving_[h].end());
   }
-  solution.step = solve_chosen(train_, solution.chosen, known_, bounds_);
-  solution.train = promised_square(train_, solution.chosen, solution.step);
-  solution.held_out = promised_square(held_out_, solution.chosen, solution.step);
+  solution.promise = promise_of(train_, held_out_, solution.chosen, known_, bounds_);
   return solution;
 }
 
@@ -113,7 +111,8 @@ std::vector<Eigen::VectorXd> Tangents::states_after(const Solution& solution) co
   for (std::size_t w = 0; w < states.size(); ++w) {
     states[w] += reduced_[w].x_shift;
     for (std::size_t a = 0; a < solution.chosen.size(); ++a) {
-      states[w] -= reduced_[w].x_slope.col(solution.chosen[a]) * solution.step[static_cast<Eigen::Index>(a)];
+      states[w] -=
+          reduced_[w].x_slope.col(solution.chosen[a]) * solution.promise.step[static_cast<Eigen::Index>(a)];
     }
   }
   return states;
@@ -131,7 +130,7 @@ Eigen::VectorXd Tangents::full_step(const Solution& solution, const std::vector<
   Eigen::VectorXd step = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns.size()));
   for (std::size_t a = 0; a < solution.chosen.size(); ++a) {
     const auto at = std::find(columns.begin(), columns.end(), solution.chosen[a]) - columns.begin();
-    step[at] = solution.step[static_cast<Eigen::Index>(a)];
+    step[at] = solution.promise.step[static_cast<Eigen::Index>(a)];
   }
   return step;
 }
@@ -144,8 +143,8 @@ std::vector<Hypothesis> Tangents::promises() const {
     }
     const Solution solution = solve({h});
     Hypothesis hypothesis = hypotheses_[h];
-    hypothesis.promised_train = solution.train;
-    hypothesis.promised_held_out = solution.held_out;
+    hypothesis.promised_train = solution.promise.train;
+    hypothesis.promised_held_out = solution.promise.held_out;
     hypothesis.x0 = states_after(solution);
     hypothesis.step = full_step(solution, {h});
     found.push_back(std::move(hypothesis));
@@ -153,10 +152,11 @@ std::vector<Hypothesis> Tangents::promises() const {
   return found;
 }
 
-// Without bounds and for the train windows only, which is quick: enough to leave out what has no prospect.
+// Without bounds, which is quick: enough to leave out what has no prospect.
 std::vector<std::pair<std::size_t, std::size_t>> Tangents::shortlist(std::size_t most) const {
   const auto count = static_cast<Eigen::Index>(stage_.parameters.size());
-  const Remaining left = without_stage(train_, known_, count);
+  const Sum all{train_.H + held_out_.H, train_.g + held_out_.g};
+  const Remaining left = without_stage(all, known_, count);
   std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> rated;
   for (std::size_t a = 0; a < hypotheses_.size(); ++a) {
     for (std::size_t b = a + 1; b < hypotheses_.size(); ++b) {
@@ -185,7 +185,7 @@ std::vector<PairHypothesis> Tangents::pairs(std::size_t most) const {
   std::vector<PairHypothesis> found;
   for (const auto& [a, b] : shortlist(kShortlist)) {
     const Solution solution = solve({a, b});
-    PairHypothesis pair{hypotheses_[a], hypotheses_[b], solution.train, solution.held_out,
+    PairHypothesis pair{hypotheses_[a], hypotheses_[b], solution.promise.train, solution.promise.held_out,
                         full_step(solution, {a, b})};
     pair.second.x0 = states_after(solution);
     found.push_back(std::move(pair));

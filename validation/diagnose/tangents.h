@@ -34,8 +34,7 @@ class Tangents {
  private:
   struct Solution {
     std::vector<Eigen::Index> chosen;
-    Eigen::VectorXd step;  // of the chosen
-    double train = 0.0, held_out = 0.0;
+    Promise promise;
   };
   Solution solve(const std::vector<std::size_t>& some) const;
   std::vector<Eigen::VectorXd> states_after(const Solution& solution) const;

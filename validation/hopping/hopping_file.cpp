@@ -70,27 +70,30 @@ void read_gains(const YamlNode& node, controllers::HoppingLegGains& gains) {
                {});
 }
 
+/// A whole number that an int can hold; what else it must be is the controller's to say.
+int read_count(const YamlNode& node) {
+  constexpr double kMost = 1e6;
+  const double count = read_number(node, "1");
+  if (!(std::abs(count) <= kMost) || count != std::floor(count)) {
+    node.refuse("a whole number of at most 1000000");
+  }
+  return static_cast<int>(count);
+}
+
 void read_filter(const YamlNode& node, controllers::RateFilterOptions& filter) {
-  double samples = 0.0;
-  double order = 0.0;
-  read_entries(
-      node,
-      {{"samples", "1", &samples}, {"order", "1", &order}, {"time_constant", "s", &filter.time_constant}},
-      {});
-  filter.samples = static_cast<int>(std::lround(samples));
-  filter.order = static_cast<int>(std::lround(order));
+  read_entries(node, {{"time_constant", "s", &filter.time_constant}}, {"samples", "order"});
+  filter.samples = read_count(node.at("samples"));
+  filter.order = read_count(node.at("order"));
 }
 
 void read_supplements(const YamlNode& node, controllers::HoppingSupplements& s) {
-  double samples = 0.0;
   read_entries(node,
-               {{"contact_samples", "1", &samples},
-                {"touchdown_time_min", "s", &s.touchdown_time_min},
+               {{"touchdown_time_min", "s", &s.touchdown_time_min},
                 {"bounce_time", "s", &s.bounce_time},
                 {"kickoff_time_max", "s", &s.kickoff_time_max},
                 {"liftoff_time_max", "s", &s.liftoff_time_max}},
-               {});
-  s.contact_samples = static_cast<int>(std::lround(samples));
+               {"contact_samples"});
+  s.contact_samples = read_count(node.at("contact_samples"));
 }
 
 void read_workspace(const YamlNode& node, controllers::HoppingWorkspace& w) {

@@ -15,12 +15,21 @@ struct Scores {
   double held_out = 0.0;
 };
 
+/// The held-out windows as the train windows foretell them with what these leave open of the parameters
+/// (foretell.h), the train windows as they are.
+struct Prediction {
+  Eigen::VectorXd theta;  ///< the values, of those that the train windows leave open, that serve all windows
+  std::vector<Eigen::VectorXd> square;  ///< as in Estimate
+  Scores scores;
+};
+
 struct Estimate {
   Eigen::VectorXd theta;            ///< parameter values in their own units
   std::vector<Eigen::VectorXd> x0;  ///< by window
   /// By window: sum of squared residuals of each channel, then of each contact switch, floor units.
   std::vector<Eigen::VectorXd> square;
   Scores scores;
+  Prediction predicted;  ///< gauss_newton only
   double cost =
       0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand
   int iterations = 0;

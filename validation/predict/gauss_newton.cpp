@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "validation/predict/box_least_squares.h"
-#include "validation/predict/estimate.h"
+#include "validation/predict/foretell.h"
 
 namespace plumbline::validation {
 namespace {
@@ -175,6 +175,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
     result.square.push_back(reduced[w].square);
   }
   result.scores = score(data, result.square);
+  result.predicted = prediction(data, reduced, parameters, here.theta, units);
   result.cost = train_cost(data, reduced) + prior(parameters, units, here.theta).square;
   return result;
 }

@@ -128,7 +128,10 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
                                       {"shift", own.shift()}});
   }
   for (const Rung& rung : diagnosis.ladder) {
-    json["ladder"].push_back({{"name", rung.name}, {"train", rung.train()}, {"held_out", rung.held_out()}});
+    json["ladder"].push_back({{"name", rung.name},
+                              {"train", rung.train()},
+                              {"held_out", rung.held_out()},
+                              {"foretold", rung.foretold()}});
   }
   json["unexplained_forces"] = nlohmann::json::array();
   for (const UnexplainedForce& one : left) {

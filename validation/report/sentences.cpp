@@ -24,7 +24,7 @@ Judged judged(double train, double held_out) {
   return held_out > 0.0 ? Judged{"held-out", held_out} : Judged{"train", train};
 }
 
-Judged judged(const Rung& rung) { return judged(rung.train(), rung.held_out()); }
+Judged judged(const Rung& rung) { return judged(rung.train(), rung.foretold()); }
 
 }  // namespace
 
