@@ -81,8 +81,9 @@ bool names(const model::EffectUse& truth, const std::string& effect, const std::
 bool finds(const validation::Finding& finding, const model::EffectUse& truth) {
   return names(truth, finding.effect, finding.at) ||
          (finding.rivals.size() <= kMostRivals &&
-          std::any_of(finding.rivals.begin(), finding.rivals.end(),
-                      [&](const validation::Named& rival) { return names(truth, rival.effect, rival.at); }));
+          std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const validation::Rival& rival) {
+            return names(truth, rival.name.effect, rival.name.at);
+          }));
 }
 
 /// How many of the fitted values' 95 % intervals hold the true ones.

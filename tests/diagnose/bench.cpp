@@ -21,4 +21,9 @@ Data bench_twins(const std::vector<std::string>& hidden) {
   return Data(std::move(trials), {});
 }
 
+Stage as_given(const model::Model& model, const Data& data) {
+  PredictorPool pool(model, data);
+  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
+}
+
 }  // namespace plumbline::validation

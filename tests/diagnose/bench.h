@@ -14,4 +14,7 @@ model::Model bench();
 /// it.
 Data bench_twins(const std::vector<std::string>& hidden);
 
+/// The model as it is, with the windows' initial states fitted.
+Stage as_given(const model::Model& model, const Data& data);
+
 }  // namespace plumbline::validation

@@ -28,11 +28,6 @@ effects::Catalogue some_laws(const std::set<std::string>& names) {
   return catalogue;
 }
 
-Stage as_given(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
-  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
-}
-
 TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   const model::Model bare = bench();
   const Data data = bench_twins({"command_delay@mLS:delay=0.0014", "quadratic@mLS:drag=1.7e-5"}).thinned(8);

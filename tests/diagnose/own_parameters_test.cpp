@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulator/model/robot_file.h"
+#include "tests/diagnose/bench.h"
 #include "validation/diagnose/candidates.h"
 #include "validation/diagnose/diagnose.h"
 #include "validation/twin/twin.h"
@@ -44,11 +45,6 @@ Diagnosis diagnosed(const std::vector<std::string>& hidden) {
                   [](const std::string& /*what*/, double /*fraction*/) {});
 }
 
-Stage given_stage(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
-  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
-}
-
 TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {
   const model::Model bare = pendulum();
   const model::Model open = with_stated_errors(bare);
@@ -60,16 +56,16 @@ TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {
               testing::UnorderedElementsAre("viscous@drive:damping", "torque_constant_error@drive:scale",
                                             "rotor_inertia@drive:inertia", "added_mass@arm:mass"));
   const Data data = twins(bare, {});
-  EXPECT_NEAR(given_stage(open, data).estimate.scores.held_out,
-              given_stage(bare, data).estimate.scores.held_out, 1e-6);
+  EXPECT_NEAR(as_given(open, data).estimate.scores.held_out, as_given(bare, data).estimate.scores.held_out,
+              1e-6);
 }
 
 TEST(OwnParameters, DataSpeakForTheStatedNumbersOnlyWhereTheyAreTrue) {
   const model::Model bare = pendulum();
   const Data exact = twins(bare, {});
   const Data other = twins(bare, kScatter);
-  EXPECT_GT(evidence_for_stated(given_stage(bare, exact), exact, 3.0), std::log(100.0));
-  EXPECT_LT(evidence_for_stated(given_stage(bare, other), other, 3.0), 0.0);
+  EXPECT_GT(evidence_for_stated(as_given(bare, exact), exact, 3.0), std::log(100.0));
+  EXPECT_LT(evidence_for_stated(as_given(bare, other), other, 3.0), 0.0);
 }
 
 TEST(OwnParameters, AnHonestScatterIsNoMissingEffect) {

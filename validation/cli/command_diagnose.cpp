@@ -74,8 +74,8 @@ void print_verdict(const Diagnosis& diagnosis) {
     }
     if (!finding.rivals.empty()) {
       fmt::print("  These data cannot tell it from:");
-      for (const Named& rival : finding.rivals) {
-        fmt::print(" {} at {};", rival.effect, rival.at);
+      for (const Rival& rival : finding.rivals) {
+        fmt::print(" {} at {} (correlation {:.4f});", rival.name.effect, rival.name.at, rival.correlation);
       }
       fmt::print("\n");
     }

@@ -5,6 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/choose.h"
+#include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
@@ -196,7 +197,9 @@ class Diagnoser {
     Finding finding = finding_of(candidate);
     finding.selected_share = choice.share;
     for (const std::size_t i : choice.rivals) {
-      add_rival(tried.candidates[static_cast<std::size_t>(tried.refits[i].candidate)], finding);
+      const Refit& rival = tried.refits[i];
+      add_rival(tried.candidates[static_cast<std::size_t>(rival.candidate)],
+                correlation(tried.stage, after(refit), after(rival), data_), finding);
     }
     set_errors(tried.stage.estimate, refit.estimate, finding);
     const Stage next = after(refit);
@@ -250,7 +253,9 @@ class Diagnoser {
     first.together_with = pair.second.label();
     second.together_with = pair.first.label();
     for (const std::size_t i : choice.rivals) {
-      add_pair_rivals(pairs[i], pair, first, second);
+      add_pair_rivals(pairs[i], pair,
+                      correlation(first_.stage, after(pair.refit), after(pairs[i].refit), data_), first,
+                      second);
     }
     std::vector<Finding> accepted{first, second};
     set_values(after(pair.refit), data_, accepted);

@@ -35,12 +35,18 @@ struct Named {
   std::string effect, at;
 };
 
+/// What the data cannot tell from a finding.
+struct Rival {
+  Named name;
+  double correlation = 1.0;  ///< between what either takes off the residuals (correlation.h); 1: one answer
+};
+
 /// One accepted effect. Held-out errors are those that the train trials foretell with what they leave open of
 /// the values (validation/predict/foretell.h); the ladder has those at the best values for train as well.
 struct Finding {
   std::string effect, at;
   std::vector<ParameterValue> parameters;
-  std::vector<Named> rivals;
+  std::vector<Rival> rivals;
   double held_out_before = 0.0, held_out_after = 0.0;
   double train_before = 0.0, train_after = 0.0;
   double selected_share = 0.0;

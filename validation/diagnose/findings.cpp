@@ -69,7 +69,7 @@ Finding finding_of(const Candidate& candidate) {
   finding.at = candidate.at;
   finding.equation = candidate.law->declaration().equation;
   for (const std::string& same : candidate.same_places) {
-    finding.rivals.push_back({finding.effect, same});
+    finding.rivals.push_back({{finding.effect, same}, 1.0});
   }
   return finding;
 }
@@ -102,30 +102,31 @@ void set_errors(const Estimate& before, const Estimate& after, Finding& finding)
   finding.held_out_after = after.predicted.scores.held_out;
 }
 
-void add_rival(const Candidate& rival, Finding& finding) {
+void add_rival(const Candidate& rival, double correlation, Finding& finding) {
   const Named name = name_of(rival);
-  const bool known = std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const Named& other) {
-    return other.effect == name.effect && other.at == name.at;
+  const bool known = std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const Rival& other) {
+    return other.name.effect == name.effect && other.name.at == name.at;
   });
   if (!known) {
-    finding.rivals.push_back(name);
+    finding.rivals.push_back({name, correlation});
   }
 }
 
-void add_pair_rivals(const Pair& rival, const Pair& named, Finding& first, Finding& second) {
+void add_pair_rivals(const Pair& rival, const Pair& named, double correlation, Finding& first,
+                     Finding& second) {
   const std::string one = rival.first.label();
   const std::string other = rival.second.label();
   if (one == named.first.label()) {
-    add_rival(rival.second, second);
+    add_rival(rival.second, correlation, second);
   } else if (other == named.second.label()) {
-    add_rival(rival.first, first);
+    add_rival(rival.first, correlation, first);
   } else if (one == named.second.label()) {
-    add_rival(rival.second, first);
+    add_rival(rival.second, correlation, first);
   } else if (other == named.first.label()) {
-    add_rival(rival.first, second);
+    add_rival(rival.first, correlation, second);
   } else {
-    add_rival(rival.first, first);
-    add_rival(rival.second, second);
+    add_rival(rival.first, correlation, first);
+    add_rival(rival.second, correlation, second);
   }
 }
 

@@ -22,9 +22,10 @@ void set_values(const Stage& stage, const Data& data, std::vector<Finding>& find
 
 void set_errors(const Estimate& before, const Estimate& after, Finding& finding);
 
-void add_rival(const Candidate& rival, Finding& finding);
+void add_rival(const Candidate& rival, double correlation, Finding& finding);
 
 /// A rival pair: what it has in place of either effect is that effect's rival.
-void add_pair_rivals(const Pair& rival, const Pair& named, Finding& first, Finding& second);
+void add_pair_rivals(const Pair& rival, const Pair& named, double correlation, Finding& first,
+                     Finding& second);
 
 }  // namespace plumbline::validation

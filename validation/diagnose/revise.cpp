@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "validation/diagnose/choose.h"
+#include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
 
 namespace plumbline::validation {
@@ -20,7 +21,7 @@ struct InPlace {
 };
 
 /// Each rival that is a candidate of its own, refitted in the place of an effect.
-std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Named>& rivals,
+std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Rival>& rivals,
                                     const effects::Catalogue& catalogue, const Data& data,
                                     const DiagnoseOptions& options, const Progress& progress) {
   std::vector<Candidate> candidates;
@@ -30,7 +31,7 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Name
   }
   const auto is_no_rival = [&](const Candidate& candidate) {
     return std::none_of(rivals.begin(), rivals.end(),
-                        [&](const Named& rival) { return is_named(candidate, rival); });
+                        [&](const Rival& rival) { return is_named(candidate, rival.name); });
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_no_rival), candidates.end());
   std::vector<InPlace> tried;
@@ -43,7 +44,7 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Name
 
 void drop_rival(const Candidate& candidate, Finding& finding) {
   finding.rivals.erase(std::remove_if(finding.rivals.begin(), finding.rivals.end(),
-                                      [&](const Named& rival) { return is_named(candidate, rival); }),
+                                      [&](const Rival& rival) { return is_named(candidate, rival.name); }),
                        finding.rivals.end());
 }
 
@@ -55,7 +56,8 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   Finding finding = finding_of(winner.candidate);
   finding.selected_share = share;
   if (1.0 - share > kFair) {
-    finding.rivals.push_back({old.effect, old.at});
+    finding.rivals.push_back(
+        {{old.effect, old.at}, correlation(without, after(winner.refit), diagnosis.final_stage, data)});
   }
   set_errors(without.estimate, winner.refit.estimate, finding);
   std::vector<Finding> accepted = diagnosis.accepted;

@@ -40,8 +40,9 @@ nlohmann::json to_json(const Finding& finding) {
                       {"together_with", finding.together_with},
                       {"rivals", nlohmann::json::array()},
                       {"parameters", nlohmann::json::array()}};
-  for (const Named& rival : finding.rivals) {
-    json["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
+  for (const Rival& rival : finding.rivals) {
+    json["rivals"].push_back(
+        {{"effect", rival.name.effect}, {"at", rival.name.at}, {"correlation", rival.correlation}});
   }
   for (const ParameterValue& p : finding.parameters) {
     json["parameters"].push_back(

@@ -18,7 +18,7 @@ function drawFindings() {
       make("td", {}, `${number(p.value, digitsFor(p.value, p.standard_deviation))} ± ${number(p.standard_deviation, 2)} ${p.unit === "1" ? "" : p.unit}`))))),
     make("p", {}, `Held-out error ${ratio(finding.held_out_before)} → ${ratio(finding.held_out_after)}, train ${ratio(finding.train_before)} → ${ratio(finding.train_after)} times the floor. Chosen in ${percent(finding.selected_share)} of the resamples of windows.`),
     make("p", {}, finding.rivals.length === 0 ? "Nothing else in the catalogue explains these data as well."
-      : `These data cannot tell it from: ${finding.rivals.map(labelOf).join("; ")}.`)));
+      : `These data cannot tell it from: ${finding.rivals.map((rival) => `${labelOf(rival)} (correlation ${rival.correlation.toFixed(4)})`).join("; ")}.`)));
   $("findings").replaceChildren(...(cards.length ? cards : [make("p", { class: "note" }, "No effect was accepted.")]));
 }
 
