@@ -33,6 +33,7 @@ void add_hidden(const Result& result, const Targets& targets, Summary& summary) 
     return;
   }
   (result.one.strength == Strength::weak ? summary.weak : summary.clear).add(result.right);
+  summary.in_larger_set += !result.right && result.in_set ? 1 : 0;
   if (result.right) {
     summary.first.add(result.first == name_of(result.one.rows.front()));
     summary.at_floor.add(result.after <= targets.each_after);
@@ -70,6 +71,7 @@ nlohmann::json to_json(const Result& r) {
           {"set_size", r.set_size},
           {"intervals", {{"asked", r.asked}, {"inside", r.inside}}},
           {"right", r.right},
+          {"in_set", r.in_set},
           {"held_out_before", r.before},
           {"held_out_after", r.after},
           {"seconds", r.seconds},
@@ -224,6 +226,7 @@ std::string summary_text(const Summary& s, const Targets& t) {
   }
   text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
                       share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
+  text += fmt::format("  of the others {} in a set of more than {} names\n", s.in_larger_set, kMostNames);
   if (s.errors > 0) {
     text += fmt::format("  {} cases could not be run: MISSED\n", s.errors);
   }
@@ -273,6 +276,7 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
                      {"clear", to_json(s.clear)},
                      {"weak", to_json(s.weak)},
                      {"first", to_json(s.first)},
+                     {"in_larger_set", s.in_larger_set},
                      {"none", to_json(s.none)},
                      {"pairs", to_json(s.pairs)},
                      {"unknown", to_json(s.unknown)},

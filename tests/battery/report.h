@@ -35,6 +35,7 @@ struct Summary {
   int hidden = 0;              ///< cases with one effect, visible or not
   Count clear, weak, first;    ///< visible ones; `first`: named first among the right ones
   Count none, pairs, unknown;  ///< none: with nothing named
+  int in_larger_set = 0;       ///< visible ones that are not right, but in the set that was named
   Count at_floor;              ///< right ones with an error below Targets::each_after
   Count intervals;
   std::vector<double> after;  ///< held-out errors of right single cases

@@ -77,10 +77,10 @@ bool names(const model::EffectUse& truth, const std::string& effect, const std::
   return truth.law->declaration().name == effect && truth.at == at;
 }
 
-/// Is the truth the finding's name, or one of a small set of rivals?
-bool finds(const validation::Finding& finding, const model::EffectUse& truth) {
+/// Is the truth the finding's name, or one of a set of at most so many?
+bool finds(const validation::Finding& finding, const model::EffectUse& truth, std::size_t most_names) {
   return names(truth, finding.effect, finding.at) ||
-         (finding.rivals.size() <= kMostRivals &&
+         (1 + finding.rivals.size() <= most_names &&
           std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const validation::Rival& rival) {
             return names(truth, rival.name.effect, rival.name.at);
           }));
@@ -101,7 +101,7 @@ bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::E
               Kind kind) {
   const auto is_found = [&](const model::EffectUse& truth) {
     return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
-                       [&](const validation::Finding& finding) { return finds(finding, truth); });
+                       [&](const validation::Finding& finding) { return finds(finding, truth, kMostNames); });
   };
   switch (kind) {
     case Kind::none:
@@ -114,7 +114,7 @@ bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::E
     case Kind::hidden:
       break;
   }
-  return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front());
+  return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front(), kMostNames);
 }
 
 /// The ladder's last model before anything was added: its own numbers are fitted, where they are free.
@@ -133,6 +133,9 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
   result.leads = diagnosis.leads;
   result.pairs = diagnosis.pairs;
   result.right = is_right(diagnosis, truth.hidden, result.one.kind);
+  result.in_set =
+      result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
+      finds(diagnosis.accepted.front(), truth.hidden.front(), 1 + diagnosis.accepted.front().rivals.size());
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];
     const std::string name = finding.effect + "@" + finding.at;

@@ -9,8 +9,8 @@
 
 namespace plumbline::battery {
 
-constexpr double kVisible = 1.15;       ///< held-out error, in floors, from which an effect must be found
-constexpr std::size_t kMostRivals = 2;  ///< a set of names with more rivals is no answer
+constexpr double kVisible = 1.15;      ///< held-out error, in floors, from which an effect must be found
+constexpr std::size_t kMostNames = 2;  ///< a set of more names is no answer
 
 struct Result {
   Case one;
@@ -21,16 +21,17 @@ struct Result {
   std::string first;   ///< first effect named, "coulomb@mLA"; empty: none
   std::string others;  ///< further accepted effects, joined by spaces
   int set_size = 0;    ///< the first name and its rivals
-  /// hidden: named first, or in a set of at most kMostRivals rivals; pair: so for both, and nothing else;
+  /// hidden: named first, or in a set of at most kMostNames; pair: so for both, and nothing else;
   /// none: nothing named; removed, foreign: no verdict "missing"
   bool right = false;
+  bool in_set = false;  ///< hidden: named, in a set of whatever size
   /// Held-out error before anything was named: what the hidden effect does beyond what an honest change of
   /// the model's own numbers can do, where these were freed.
   double before = 0.0;
   double after = 0.0;  ///< held-out error with all that was accepted
   double seconds = 0.0;
   int asked = 0, inside = 0;  ///< parameters of rightly named effects; 95 % intervals that hold the truth
-  std::vector<validation::PairRow> pairs;  ///< tried together
+  std::vector<validation::PairRow> pairs;           ///< tried together
   std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected
   std::string error;                                ///< why the case could not be run; empty otherwise
 };

@@ -17,11 +17,11 @@ namespace {
 
 using validation::Diagnosis;
 using validation::Finding;
-using validation::Named;
 using validation::OwnParameter;
 using validation::PairRow;
 using validation::ParameterValue;
 using validation::RankRow;
+using validation::Rival;
 using validation::Verdict;
 
 using validation::UnexplainedForce;

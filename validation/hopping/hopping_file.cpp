@@ -6,6 +6,7 @@
 
 #include "simulator/model/quantity.h"
 #include "simulator/model/yaml_node.h"
+#include "simulator/trace/number_text.h"
 
 namespace plumbline::validation {
 namespace {
@@ -75,7 +76,7 @@ int read_count(const YamlNode& node) {
   constexpr double kMost = 1e6;
   const double count = read_number(node, "1");
   if (!(std::abs(count) <= kMost) || count != std::floor(count)) {
-    node.refuse("a whole number of at most 1000000");
+    node.refuse(number_text(count), "a whole number of at most 1000000");
   }
   return static_cast<int>(count);
 }
