@@ -1,7 +1,12 @@
-# External libraries, all from Debian. The order of SUNDIALS before Simbody matters when linking.
+# External libraries, all from Debian.
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(SUNDIALS REQUIRED)
 find_package(Simbody REQUIRED)
+# libSimTKmath exports the names of its own old copy of SUNDIALS, and a linker that meets it first takes them from
+# there. As if they needed Simbody: so CMake puts the static copies before it on every link line.
+foreach(part arkode cvode nvecserial sunmatrixdense sunlinsoldense generic)
+  set_property(TARGET SUNDIALS::${part}_static APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${Simbody_LIBRARIES})
+endforeach()
 find_package(sdformat12 REQUIRED)
 find_package(Ceres REQUIRED)
 find_package(yaml-cpp REQUIRED)

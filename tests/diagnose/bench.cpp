@@ -21,6 +21,17 @@ Data bench_twins(const std::vector<std::string>& hidden) {
   return Data(std::move(trials), {});
 }
 
+effects::Catalogue some_laws(const std::set<std::string>& names) {
+  const effects::Catalogue all = effects::Catalogue::all();
+  effects::Catalogue catalogue = all;
+  for (const auto& law : all.laws()) {
+    if (names.count(law->declaration().name) == 0) {
+      catalogue = catalogue.without(law->declaration().name);
+    }
+  }
+  return catalogue;
+}
+
 Stage as_given(const model::Model& model, const Data& data) {
   PredictorPool pool(model, data);
   return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};

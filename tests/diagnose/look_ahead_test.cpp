@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/tangents.h"
 
@@ -15,18 +13,6 @@ namespace {
 using testing::UnorderedElementsAre;
 
 void silent(const std::string& /*what*/, double /*fraction*/) {}
-
-/// A small catalogue: the trial of every law would take minutes.
-effects::Catalogue some_laws(const std::set<std::string>& names) {
-  const effects::Catalogue all = effects::Catalogue::all();
-  effects::Catalogue catalogue = all;
-  for (const auto& law : all.laws()) {
-    if (names.count(law->declaration().name) == 0) {
-      catalogue = catalogue.without(law->declaration().name);
-    }
-  }
-  return catalogue;
-}
 
 TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   const model::Model bare = bench();

@@ -39,7 +39,7 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
-  for (bool all_seen = false; !all_seen && !contenders.empty();) {
+  for (bool all_seen = false; !all_seen;) {
     all_seen = true;
     choice.shares = selected_shares(stage, refits, contenders, data, options);
     std::vector<std::size_t> asked = near_best(refits, contenders, options);

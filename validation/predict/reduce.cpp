@@ -26,19 +26,23 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       X.bottomRows(nx) = predictor.initial_spread(window).cwiseInverse().asDiagonal();
       const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
       const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
+      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
+      const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
+      out.raw_sse = lin.r.squaredNorm();
+      out.sse = out.raw_sse - Qtr.squaredNorm();
+      out.square = predictor.squares(window, lin.r - Q.topRows(rows) * Qtr);
+      out.x_shift = R.solve(Qtr);
+      out.H.setZero(lin.Jp.cols(), lin.Jp.cols());
+      out.g.setZero(lin.Jp.cols());
+      out.x_slope.setZero(nx, lin.Jp.cols());
+      if (parameters.empty()) {
+        return;  // Eigen's products are not made for matrices without columns
+      }
       const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
       const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
-      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
-      out.H.setZero(Jp.cols(), Jp.cols());
       out.H.selfadjointView<Eigen::Lower>().rankUpdate(Jp.transpose()).rankUpdate(QtJ.transpose(), -1.0);
       out.H.triangularView<Eigen::StrictlyUpper>() = out.H.transpose();
       out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
-      out.raw_sse = lin.r.squaredNorm();
-      out.sse = out.raw_sse - Qtr.squaredNorm();
-      const Eigen::VectorXd left = lin.r - Q.topRows(rows) * Qtr;
-      out.square = predictor.squares(window, left);
-      const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
-      out.x_shift = R.solve(Qtr);
       out.x_slope = R.solve(QtJ);
     });
   });

@@ -1,0 +1,41 @@
+// Which of several refits is named.
+#include "validation/diagnose/choose.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/bench.h"
+#include "validation/diagnose/look_ahead.h"
+
+namespace plumbline::validation {
+namespace {
+
+void silent(const std::string& /*what*/, double /*fraction*/) {}
+
+// The hidden law itself is made impossible: the next best must not lose the resamples that it would have won.
+TEST(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
+  const DiagnoseOptions options;
+  Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
+  ASSERT_GE(tried.refits.size(), 2U);
+  const auto label = [&](std::size_t refit) {
+    return tried.candidates[static_cast<std::size_t>(tried.refits[refit].candidate)].label();
+  };
+  const Choice before = choose(tried.stage, tried.refits, data, options);
+  ASSERT_EQ(before.named, 0);
+  EXPECT_EQ(label(0), "coulomb@mLA");
+  EXPECT_GT(before.shares[0], 0.9);
+
+  Refit& best = tried.refits.front();
+  ASSERT_EQ(best.own, 1);
+  best.extended.parameters.back().upper = best.estimate.theta[best.estimate.theta.size() - 1];
+  const Choice after = choose(tried.stage, tried.refits, data, options);
+  EXPECT_THAT(after.objections[0], testing::HasSubstr("unphysical"));
+  EXPECT_EQ(after.shares[0], 0.0);
+  EXPECT_GT(after.shares[1], 0.9);
+  EXPECT_NE(after.named, 0);
+}
+
+}  // namespace
+}  // namespace plumbline::validation
