@@ -128,17 +128,8 @@ Extended extend(const Stage& stage, const Candidate& candidate, const effects::V
 }
 
 Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypothesis) {
-  const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
-  Eigen::VectorXd theta = extended.theta;
-  for (Eigen::Index p = 0; p < theta.size(); ++p) {
-    const FreeParameter& parameter = extended.parameters[static_cast<std::size_t>(p)];
-    const double search = to_search(parameter.scale, theta[p]) + units[p] * hypothesis.step[p];
-    const double value = from_search(parameter.scale, search);
-    if (std::isfinite(value)) {
-      theta[p] = std::clamp(value, parameter.lower, parameter.upper);
-    }
-  }
-  return theta;
+  return stepped(extended.parameters, extended.theta, search_units(extended.parameters, extended.theta),
+                 hypothesis.step);
 }
 
 std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,

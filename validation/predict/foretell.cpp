@@ -27,18 +27,6 @@ Room trusted_room(const std::vector<FreeParameter>& parameters, const Eigen::Vec
   return bounds;
 }
 
-Eigen::VectorXd moved(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
-                      const Eigen::VectorXd& units, const Eigen::VectorXd& step) {
-  Eigen::VectorXd to = theta;
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto i = static_cast<Eigen::Index>(p);
-    const double search = to_search(parameters[p].scale, theta[i]) + units[i] * step[i];
-    const double value = from_search(parameters[p].scale, search);
-    to[i] = std::isfinite(value) ? std::clamp(value, parameters[p].lower, parameters[p].upper) : theta[i];
-  }
-  return to;
-}
-
 /// The train windows' equations without the slope that the fit has left: it has ended here, and a step that
 /// it did not take is not counted on. A slope that presses a value against its bound stays.
 Sum at_rest(Sum train, const Prior& known, const Room& bounds) {
@@ -84,6 +72,18 @@ Foretold foretell(const Sum& train, const Sum& held_out, const Prior& known, con
   return result;
 }
 
+Eigen::VectorXd stepped(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                        const Eigen::VectorXd& units, const Eigen::VectorXd& step) {
+  Eigen::VectorXd to = theta;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    const double search = to_search(parameters[p].scale, theta[i]) + units[i] * step[i];
+    const double value = from_search(parameters[p].scale, search);
+    to[i] = std::isfinite(value) ? std::clamp(value, parameters[p].lower, parameters[p].upper) : theta[i];
+  }
+  return to;
+}
+
 Prediction prediction(const Data& data, const std::vector<Reduced>& reduced,
                       const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
                       const Eigen::VectorXd& units) {
@@ -98,7 +98,7 @@ Prediction prediction(const Data& data, const std::vector<Reduced>& reduced,
     const Room bounds = trusted_room(parameters, theta, units);
     const Sum train = at_rest(sum_of(reduced, windows, data, Role::train), known, bounds);
     const Foretold foretold = foretell(train, held_out, known, bounds);
-    result.theta = moved(parameters, theta, units, foretold.step);
+    result.theta = stepped(parameters, theta, units, foretold.step);
     // The cost of the train windows' and the prior's consent is shared out over the held-out windows.
     const double share = foretold.held_out / std::max(held_out.cost(foretold.step), 1e-300);
     for (std::size_t w = 0; w < reduced.size(); ++w) {

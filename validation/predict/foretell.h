@@ -33,6 +33,10 @@ struct Foretold {
 };
 Foretold foretell(const Sum& train, const Sum& held_out, const Prior& known, const Room& bounds);
 
+/// The values after a step in search units, within their bounds; one that would not be finite stays.
+Eigen::VectorXd stepped(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                        const Eigen::VectorXd& units, const Eigen::VectorXd& step);
+
 /// The squares of the windows with those of the held-out windows as they are foretold at a fit's end, where
 /// the windows were reduced; `units`: of the reduction. A value of which nothing is known beforehand is
 /// trusted to move by half a search unit, as far as a straight line serves.
