@@ -209,6 +209,8 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
   column.segment(nz_, nz_) = factor_.solve(slot.line.reduced) * force;
 }
 
+// A hidden state that is faster than the sample has its mean far from the middle: it is where its rate is the
+// sample's change, to first order (exact for a first-order lag).
 void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
                                        const double* x, const Eigen::MatrixXd& A, effects::Values moved,
                                        double step, Eigen::Ref<Eigen::VectorXd> column) {
@@ -216,11 +218,18 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
   const double here = gain * sample.command[motor];
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
-  const double before = actuator_chain(motor, x, here, now.data());
+  Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  if (slot.state >= 0) {
+    actuator_chain(motor, x, here, now.data());
+    for (int i = slot.state; i < slot.state + slot.law->state_count(); ++i) {
+      mean[i] += (sample.change[i] / sample.period - now[i]) / A(i, i);
+    }
+  }
+  const double before = actuator_chain(motor, mean.data(), here, now.data());
   const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
   const double delayed = here + gain * sample.command_slope[motor] * delay_change;
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
-  const double after = actuator_chain(motor, x, delayed, up.data());
+  const double after = actuator_chain(motor, mean.data(), delayed, up.data());
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
   column = (up - now) / step;
   column.segment(nz_, nz_) +=

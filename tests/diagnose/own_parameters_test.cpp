@@ -68,6 +68,26 @@ TEST(OwnParameters, DataSpeakForTheStatedNumbersOnlyWhereTheyAreTrue) {
   EXPECT_LT(evidence_for_stated(as_given(bare, other), other, 3.0), 0.0);
 }
 
+/// The model's own numbers fitted, nothing added.
+Stage with_own_fitted(const model::Model& bare, const Data& data) {
+  Stage stage{with_stated_errors(bare), {}, {}};
+  stage.parameters = stated_parameters(stage.model, 3.0);
+  PredictorPool pool(stage.model, data);
+  stage.estimate =
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {10, 1e-4});
+  return stage;
+}
+
+// The density ratio is one number, from wherever the log density is expanded.
+TEST(OwnParameters, EvidenceIsTheSameWhereTheNumbersWereFitted) {
+  const model::Model bare = pendulum();
+  const Data exact = twins(bare, {});
+  const Data other = twins(bare, kScatter);
+  EXPECT_NEAR(evidence_for_stated(with_own_fitted(bare, exact), exact, 3.0),
+              evidence_for_stated(as_given(bare, exact), exact, 3.0), 2.0);
+  EXPECT_LT(evidence_for_stated(with_own_fitted(bare, other), other, 3.0), -std::log(100.0));
+}
+
 TEST(OwnParameters, AnHonestScatterIsNoMissingEffect) {
   const Diagnosis d = diagnosed(kScatter);
   EXPECT_EQ(d.verdict, Verdict::nothing_missing);

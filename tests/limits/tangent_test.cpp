@@ -72,6 +72,28 @@ class Tangent : public testing::TestWithParam<Case> {
     EXPECT_LT(share, limit) << label;
   }
 
+  /// The derivatives by the case's parameters against differences of whole predictions.
+  validation::Linearisation expect_parameters() {
+    std::vector<FreeParameter> parameters;
+    for (const Moved& moved : GetParam().moved) {
+      parameters.push_back(free_parameter(model_, moved));
+    }
+    Predictor predictor(model_, trial_, {});
+    validation::Linearisation found = predictor.linearise(window_, x0_, parameters);
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const double step = 1e-3 * parameters[p].typical;
+      const double here = exact_->plant().value(parameters[p].id);
+      exact_->plant().set_value(parameters[p].id, here + step);
+      const Eigen::VectorXd up = exact_->residual(window_, x0_);
+      exact_->plant().set_value(parameters[p].id, here - step);
+      const Eigen::VectorXd down = exact_->residual(window_, x0_);
+      exact_->plant().set_value(parameters[p].id, here);
+      expect_column(found.Jp.col(static_cast<Eigen::Index>(p)), (down - up) / (2.0 * step),
+                    parameters[p].label, GetParam().moved[p].share);
+    }
+    return found;
+  }
+
   model::Model model_ = leg_bench();
   validation::Trial trial_;
   std::unique_ptr<Predictor> exact_;
@@ -80,23 +102,7 @@ class Tangent : public testing::TestWithParam<Case> {
 };
 
 TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
-  std::vector<FreeParameter> parameters;
-  for (const Moved& moved : GetParam().moved) {
-    parameters.push_back(free_parameter(model_, moved));
-  }
-  Predictor predictor(model_, trial_, {});
-  const validation::Linearisation found = predictor.linearise(window_, x0_, parameters);
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const double step = 1e-3 * parameters[p].typical;
-    const double here = exact_->plant().value(parameters[p].id);
-    exact_->plant().set_value(parameters[p].id, here + step);
-    const Eigen::VectorXd up = exact_->residual(window_, x0_);
-    exact_->plant().set_value(parameters[p].id, here - step);
-    const Eigen::VectorXd down = exact_->residual(window_, x0_);
-    exact_->plant().set_value(parameters[p].id, here);
-    expect_column(found.Jp.col(static_cast<Eigen::Index>(p)), (down - up) / (2.0 * step), parameters[p].label,
-                  GetParam().moved[p].share);
-  }
+  const validation::Linearisation found = expect_parameters();
   const std::vector<std::string> names = exact_->plant().state_names();
   const std::vector<int> carried = exact_->plant().force_states();
   for (Eigen::Index i = 0; i < x0_.size(); ++i) {
@@ -113,6 +119,11 @@ TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
     expect_column(found.Jx.col(i), (down - up) / (2.0 * step), names[static_cast<std::size_t>(i)]);
   }
 }
+
+class TangentByParameters : public Tangent {};
+
+// What a state faster than the sample does within it is known as a mean only.
+TEST_P(TangentByParameters, AgreesWithDifferencesOfWholeWindows) { expect_parameters(); }
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> kCases = {
@@ -151,6 +162,15 @@ const std::vector<Case>& cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, Tangent, testing::ValuesIn(cases()),
+                         [](const auto& chosen) { return chosen.param.label; });
+
+INSTANTIATE_TEST_SUITE_P(FastLag, TangentByParameters,
+                         testing::Values(Case{"sixteenth_of_a_sample",
+                                              {"actuator_lag@mLA:time_constant=6e-5"},
+                                              {{"actuator_lag", "mLA", "time_constant", 6e-5, 0.1}}},
+                                         Case{"half_a_sample",
+                                              {"actuator_lag@mLA:time_constant=5e-4"},
+                                              {{"actuator_lag", "mLA", "time_constant", 5e-4, 0.1}}}),
                          [](const auto& chosen) { return chosen.param.label; });
 
 }  // namespace

@@ -24,20 +24,18 @@ class Diagnoser {
             const Progress& progress)
       : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
 
-  /// First with the model's own numbers exactly as stated. If that gives no answer, or the data speak for
-  /// other numbers, anew with the numbers free within what is stated of them. Where one effect after the
+  /// With the model's own numbers exactly as stated, and with them free within what is stated of them: the
+  /// first where that gives an answer and the data do not speak for other numbers. Where one effect after the
   /// other leads nowhere, two at once.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
-    const Stage open = with_open_numbers(diagnosis.final_stage);
-    take_steps(open.parameters.empty() ? options_.most_effects : options_.most_as_stated, diagnosis);
-    revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
-    conclude(diagnosis);
-    if (!open.parameters.empty() && !speaks_for_stated(diagnosis)) {
-      fit_own(open, diagnosis);
-      take_steps(options_.most_effects, diagnosis);
-      revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
-      conclude(diagnosis);
+    const Rung given = diagnosis.ladder.front();
+    const Stage open = with_open_numbers(given.stage);
+    if (open.parameters.empty()) {
+      look(options_.most_effects, diagnosis);
+    } else {
+      const Rung fitted{"own parameters fitted", fit_own(open)};
+      look_with_own_numbers(given, fitted, diagnosis);
     }
     if (diagnosis.verdict == Verdict::unexplained) {
       look_for_pair(diagnosis);
@@ -120,12 +118,65 @@ class Diagnoser {
     stage.estimate = given;
   }
 
-  void take_steps(int most, Diagnosis& diagnosis) {
+  /// One effect after the other from where the ladder stands.
+  void look(int most, Diagnosis& diagnosis) {
     for (int round = 0; round < most; ++round) {
       if (at_floor(diagnosis.final_stage.estimate, data_, options_) || !step(diagnosis, round)) {
         break;
       }
     }
+    revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
+    conclude(diagnosis);
+  }
+
+  /// As a whole: an interruption must not leave parameters without their values.
+  static void restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
+    Diagnosis anew;
+    anew.ladder = ladder;
+    anew.final_stage = ladder.back().stage;
+    diagnosis = std::move(anew);
+  }
+
+  /// With the numbers as stated first, because an answer with them says more. But where other numbers alone
+  /// explain nearly everything, first with the numbers free. The stated ones then need no trial if an effect
+  /// is named beside which the data speak against them, or if no answer was found: it would have been one
+  /// with free numbers, too.
+  void look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
+    if (!explains_nearly_all(given, fitted)) {
+      look(options_.most_as_stated, diagnosis);
+      if (!speaks_for_stated(diagnosis)) {
+        restart({given, fitted}, diagnosis);
+        look(options_.most_effects, diagnosis);
+      }
+      return;
+    }
+    restart({given, fitted}, diagnosis);
+    look(options_.most_effects, diagnosis);
+    if (diagnosis.verdict == Verdict::unexplained ||
+        (diagnosis.verdict == Verdict::missing && evidence(diagnosis) < -std::log(options_.evidence))) {
+      return;
+    }
+    Tried first = std::move(first_);
+    Diagnosis stated;
+    restart({given}, stated);
+    look(options_.most_as_stated, stated);
+    if (speaks_for_stated(stated)) {
+      diagnosis = std::move(stated);
+    } else {
+      first_ = std::move(first);
+    }
+  }
+
+  /// What is left above the floor with the numbers fitted is a small share of what was.
+  bool explains_nearly_all(const Rung& given, const Rung& fitted) const {
+    constexpr double kLeft = 0.05;
+    const double before = judged(given.stage.estimate, data_);
+    const double after = judged(fitted.stage.estimate, data_);
+    return before > options_.finished && after * after - 1.0 < kLeft * (before * before - 1.0);
+  }
+
+  double evidence(const Diagnosis& diagnosis) const {
+    return evidence_for_stated(diagnosis.final_stage, data_, options_.parameter_width);
   }
 
   /// The stage with the numbers that its model states with an uncertainty as free parameters, not yet fitted.
@@ -139,24 +190,16 @@ class Diagnoser {
 
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
   bool speaks_for_stated(const Diagnosis& diagnosis) const {
-    const Stage& stage = diagnosis.final_stage;
     return diagnosis.verdict == Verdict::nothing_missing ||
-           (diagnosis.verdict == Verdict::missing &&
-            evidence_for_stated(stage, data_, options_.parameter_width) > std::log(options_.evidence));
+           (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
   }
 
-  /// Starts anew from the model as given, with its own numbers free.
-  void fit_own(const Stage& open, Diagnosis& diagnosis) const {
-    const Rung given = diagnosis.ladder.front();
-    progress_("the model's own parameters", 0.5);
+  Stage fit_own(const Stage& open) const {
+    progress_("the model's own parameters", 0.0);
     PredictorPool pool(open.model, data_);
-    const Stage fitted{open.model, open.parameters,
-                       gauss_newton(pool, open.parameters, values_of(open.model, open.parameters),
-                                    open.estimate.x0, {10, 1e-4})};
-    // As a whole: an interruption must not leave parameters without their values.
-    diagnosis = Diagnosis();
-    diagnosis.ladder = {given, {"own parameters fitted", fitted}};
-    diagnosis.final_stage = fitted;
+    return {open.model, open.parameters,
+            gauss_newton(pool, open.parameters, values_of(open.model, open.parameters), open.estimate.x0,
+                         {10, 1e-4})};
   }
 
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.

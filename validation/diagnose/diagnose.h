@@ -11,7 +11,7 @@ namespace plumbline::validation {
 struct DiagnoseOptions {
   int most_effects = 4;          ///< rounds of acceptance
   int most_as_stated = 1;        ///< rounds with the model's own numbers exactly as stated
-  double evidence = 100.0;       ///< least odds in favour of the stated numbers with which they are believed
+  double evidence = 100.0;       ///< least odds with which the stated numbers are believed, or given up
   int refits = 8;                ///< candidates that are refitted in each round
   double material = 0.05;        ///< least relative fall of the held-out error
   double simpler = 0.02;         ///< relative rise of the error at which a simpler law is still preferred

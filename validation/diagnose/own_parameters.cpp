@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "validation/diagnose/candidates.h"
+#include "validation/predict/foretell.h"
 
 namespace plumbline::validation {
 namespace {
@@ -41,6 +42,30 @@ Equations without_first(const Equations& all, Eigen::Index count) {
     left.g -= cross * first.solve(all.g.head(count));
   }
   return left;
+}
+
+/// A stage with its own numbers open, where they stand: its other parameters first.
+struct OpenNumbers {
+  model::Model model;
+  std::vector<FreeParameter> parameters;
+  Eigen::VectorXd theta;
+  Eigen::Index own = 0;
+};
+
+bool is_own(const FreeParameter& parameter) { return std::isfinite(parameter.deviation); }
+
+OpenNumbers open_numbers(const Stage& stage, double width) {
+  OpenNumbers open{with_values(stage.model, stage.parameters, stage.estimate.theta), stage.parameters, {}};
+  const auto first_own = std::stable_partition(open.parameters.begin(), open.parameters.end(),
+                                               [](const FreeParameter& one) { return !is_own(one); });
+  if (first_own == open.parameters.end()) {
+    open.model = with_stated_errors(open.model);
+    const std::vector<FreeParameter> own = stated_parameters(open.model, width);
+    open.parameters.insert(open.parameters.end(), own.begin(), own.end());
+  }
+  open.own = std::count_if(open.parameters.begin(), open.parameters.end(), is_own);
+  open.theta = values_of(open.model, open.parameters);
+  return open;
 }
 
 double inertia_deviation(const model::Model& model, const model::Motor& motor) {
@@ -102,22 +127,13 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
   const std::vector<int> windows = data.windows_of(Role::train);
   const Eigen::VectorXd theta = values_of(pool.model(), parameters);
   const Eigen::VectorXd units = search_units(parameters, theta);
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(units.size());
-  double samples = 0.0;
-  for (const Reduced& one : reduce(pool, windows, parameters, theta, x0, units)) {
-    square += one.H.diagonal();
-  }
-  for (const int w : windows) {
-    const Window& window = data.windows[static_cast<std::size_t>(w)];
-    samples += static_cast<double>(window.count) *
-               static_cast<double>(data.trials[static_cast<std::size_t>(window.trial)].measured.size());
-  }
+  const Sum train = sum_of(reduce(pool, windows, parameters, theta, x0, units), windows, data, Role::train);
   const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
   std::vector<FreeParameter> kept;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
     const double deviation = parameters[p].deviation / std::abs(slopes[i]);  // in search units
-    if (deviation * std::sqrt(square[i] / samples) > kShareOfFloor) {
+    if (deviation * std::sqrt(train.H(i, i) / train.samples) > kShareOfFloor) {
       kept.push_back(parameters[p]);
     }
   }
@@ -125,39 +141,39 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
 }
 
 double evidence_for_stated(const Stage& stage, const Data& data, double width) {
-  const std::vector<FreeParameter>& fitted = stage.parameters;
-  const model::Model open = with_stated_errors(with_values(stage.model, fitted, stage.estimate.theta));
-  std::vector<FreeParameter> parameters = fitted;
-  for (const FreeParameter& own : stated_parameters(open, width)) {
-    parameters.push_back(own);
-  }
-  const auto first = static_cast<Eigen::Index>(fitted.size());
-  const auto own = static_cast<Eigen::Index>(parameters.size()) - first;
-  const Eigen::VectorXd theta = values_of(open, parameters);
-  const Eigen::VectorXd units = search_units(parameters, theta);
-  PredictorPool pool(open, data);
-  Equations sum{Eigen::MatrixXd::Zero(theta.size(), theta.size()), Eigen::VectorXd::Zero(theta.size())};
-  for (const Reduced& one : reduce(pool, data.all_windows(), parameters, theta, stage.estimate.x0, units)) {
+  const OpenNumbers open = open_numbers(stage, width);
+  const Eigen::VectorXd units = search_units(open.parameters, open.theta);
+  PredictorPool pool(open.model, data);
+  Equations sum{Eigen::MatrixXd::Zero(units.size(), units.size()), Eigen::VectorXd::Zero(units.size())};
+  for (const Reduced& one :
+       reduce(pool, data.all_windows(), open.parameters, open.theta, stage.estimate.x0, units)) {
     sum.H += one.H;
     sum.g += one.g;
   }
-  Equations left = without_first(sum, first);
-  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta).tail(own).cwiseAbs();
+  const Eigen::Index own = open.own;
+  Equations left = without_first(sum, units.size() - own);
+  const Eigen::VectorXd slopes = search_slopes(open.parameters, units, open.theta).tail(own);
+  Eigen::VectorXd shift(own);
   for (Eigen::Index p = 0; p < own; ++p) {
-    const double deviation = parameters[static_cast<std::size_t>(first + p)].deviation / slopes[p];
+    const FreeParameter& parameter =
+        open.parameters[open.parameters.size() - static_cast<std::size_t>(own - p)];
+    const double deviation = parameter.deviation / slopes[p];
     left.g[p] *= deviation;
     left.H.row(p) *= deviation;
     left.H.col(p) *= deviation;
+    shift[p] = (open.theta.tail(own)[p] - parameter.mean) / parameter.deviation;
   }
   const Eigen::LDLT<Eigen::MatrixXd> known(left.H + Eigen::MatrixXd::Identity(own, own));
-  return 0.5 * (known.vectorD().array().abs().log().sum() - left.g.dot(known.solve(left.g)));
+  // Mean of the own parameters after the data: (I + S) mean = g + S shift.
+  const Eigen::VectorXd mean = known.solve(left.g + left.H * shift);
+  return 0.5 * (known.vectorD().array().abs().log().sum() - mean.dot(left.g + left.H * shift));
 }
 
 std::vector<OwnParameter> own_values(const Stage& stage) {
   std::vector<OwnParameter> own;
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
     const FreeParameter& one = stage.parameters[p];
-    if (std::isfinite(one.deviation)) {
+    if (is_own(one)) {
       own.push_back(
           {one.label, one.unit, one.mean, one.deviation, stage.estimate.theta[static_cast<Eigen::Index>(p)]});
     }

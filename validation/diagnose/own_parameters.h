@@ -25,10 +25,12 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
                                                  const std::vector<Eigen::VectorXd>& x0);
 
 /// How much more probable the data are with every own parameter exactly as stated than with them scattered as
-/// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with S and g the normal
-/// equations of the own parameters in stated deviations, those of the stage eliminated,
-///   log B = (log det(I + S) - g' (I + S)^-1 g) / 2.
-/// Above zero the data speak for the stated numbers. The stage's own numbers are as stated.
+/// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with the own parameters d
+/// from what is stated, in stated deviations, and S and g their normal equations there, all others
+/// eliminated,
+///   log B = (log det(I + S) - m' (I + S) m) / 2,  (I + S) m = g + S d.
+/// Above zero the data speak for the stated numbers. The stage's own numbers are as stated (d = 0), or some
+/// of them are among its parameters and stand where they were fitted; the others count for nothing then.
 /// Source: Dickey, Annals of Mathematical Statistics 42, 1971; Kass and Raftery, J. American Statistical
 /// Association 90, 1995.
 double evidence_for_stated(const Stage& stage, const Data& data, double width);

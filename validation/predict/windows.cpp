@@ -185,6 +185,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();
+  constexpr double kBurst = 0.2;  // share of the window: a short stretch may be much stiffer than the mean
   for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
     const int pieces = pieces_at(nodes_ - 1);
     for (std::size_t b = 0; b < breaks.size(); ++b) {
@@ -205,7 +206,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
     }
     add_sample(k + 1, integrator.state());
     if (static_cast<double>(integrator.summary().steps) >
-        options_.most_steps * static_cast<double>(window.count)) {
+        options_.most_steps * (static_cast<double>(k) + kBurst * static_cast<double>(window.count))) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
   }
