@@ -29,7 +29,12 @@ TEST(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
 
   Refit& best = tried.refits.front();
   ASSERT_EQ(best.own, 1);
-  best.extended.parameters.back().upper = best.estimate.theta[best.estimate.theta.size() - 1];
+  const Eigen::Index level = best.estimate.theta.size() - 1;
+  // Nothing at the best value for train is no flaw where train leaves it open and the held-out motion
+  // decides.
+  best.estimate.theta[level] = 0.0;
+  EXPECT_EQ(flaw(best, data), "");
+  best.extended.parameters.back().upper = best.estimate.predicted.theta[level];
   const Choice after = choose(tried.stage, tried.refits, data, options);
   EXPECT_THAT(after.objections[0], testing::HasSubstr("unphysical"));
   EXPECT_EQ(after.shares[0], 0.0);

@@ -122,11 +122,10 @@ std::string undecided(const Refit& refit, const Data& data) {
   constexpr double kDeviations = 2.0;
   PredictorPool pool(refit.extended.model, data);
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
-  // The held-out motion may be the one that decides: it is not asked for the value, only whether there is
-  // one.
-  const Eigen::VectorXd deviations =
-      parameter_deviations(pool, data.all_windows(), parameters, refit.estimate, nullptr);
-  const model::Model fitted = with_values(refit.extended.model, parameters, refit.estimate.theta);
+  Estimate at = refit.estimate;
+  at.theta = refit.estimate.predicted.theta;
+  const Eigen::VectorXd deviations = parameter_deviations(pool, data.all_windows(), parameters, at, nullptr);
+  const model::Model fitted = with_values(refit.extended.model, parameters, at.theta);
   for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {
     const model::EffectUse& use = fitted.effects[static_cast<std::size_t>(parameters[p].id.effect)];
     const effects::Values values = use.numbers();
@@ -148,7 +147,7 @@ std::string undecided(const Refit& refit, const Data& data) {
 /// A lone parameter of an added effect that is on its bound; empty when there is none.
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {
-    const OwnPart own = part_of(refit, refit.estimate.theta, effect);
+    const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
     if (own.parameters.size() == 1 && on_bound(own.parameters.front(), own.theta[0])) {
       return own.parameters.front().label;
     }
@@ -348,6 +347,8 @@ std::pair<double, double> resampled_error(const Refit& refit, Role role, const D
   return {errors[tail], errors[errors.size() - 1 - tail]};
 }
 
+// The held-out motion may be the one that decides: at the values that serve all windows, of those that the
+// train windows leave open.
 std::string flaw(const Refit& refit, const Data& data) {
   const std::string bound = unphysical(refit);
   if (!bound.empty()) {

@@ -85,6 +85,29 @@ class Diagnoser {
     }
   }
 
+  /// Where a named law is nothing at the train trials' best values, those are taken that serve all trials.
+  void take_open_values(const Data& all, Diagnosis& diagnosis) const {
+    Stage& stage = diagnosis.final_stage;
+    const model::Model fitted = with_values(stage.model, stage.parameters, stage.estimate.theta);
+    const std::size_t first = fitted.effects.size() - diagnosis.accepted.size();
+    bool open = false;
+    for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
+      const model::EffectUse& use = fitted.effects[first + i];
+      diagnosis.accepted[i].open_in_train = use.law->is_null(use.numbers().data());
+      open = open || diagnosis.accepted[i].open_in_train;
+    }
+    if (!open) {
+      return;
+    }
+    const Prediction predicted = stage.estimate.predicted;
+    stage.model = with_values(stage.model, stage.parameters, predicted.theta);
+    PredictorPool pool(stage.model, all);
+    stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    stage.estimate.theta = predicted.theta;
+    stage.estimate.predicted = predicted;
+    diagnosis.ladder.back().stage = stage;
+  }
+
   void conclude(Diagnosis& diagnosis) const {
     const double before = judged(diagnosis.ladder[bare_rungs(diagnosis) - 1].stage.estimate, data_);
     const double after = judged(diagnosis.final_stage.estimate, data_);
@@ -348,6 +371,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
       diagnoser.rescore(data, diagnosis);
     }
     diagnoser.drop_superfluous(data, diagnosis);
+    diagnoser.take_open_values(data, diagnosis);
     set_values(diagnosis.final_stage, data, diagnosis.accepted);
     diagnoser.conclude(diagnosis);
   } catch (const Stopped&) {

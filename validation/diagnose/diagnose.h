@@ -52,6 +52,9 @@ struct Finding {
   double selected_share = 0.0;
   std::string equation;
   std::string together_with;  ///< "law@place" of the effect that was found with it at once; usually empty
+  /// The train trials' best value is no effect at all, though they leave it open: the values are then those
+  /// that serve the held-out trials, too, and their error is no prediction any more.
+  bool open_in_train = false;
 };
 
 struct RankRow {

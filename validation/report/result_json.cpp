@@ -38,6 +38,7 @@ nlohmann::json to_json(const Finding& finding) {
                       {"train_after", finding.train_after},
                       {"selected_share", finding.selected_share},
                       {"together_with", finding.together_with},
+                      {"open_in_train", finding.open_in_train},
                       {"rivals", nlohmann::json::array()},
                       {"parameters", nlohmann::json::array()}};
   for (const Rival& rival : finding.rivals) {

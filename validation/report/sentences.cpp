@@ -56,11 +56,15 @@ std::string finding_sentences(const Finding& finding, Verdict verdict) {
                                                                 finding.train_before, finding.train_after);
   return fmt::format(
       "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}; {} chosen in "
-      "{:.0f} % of the resamples.",
+      "{:.0f} % of the resamples.{}",
       verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
       before.error, after.error, train,
       finding.together_with.empty() ? "it was" : "together with " + finding.together_with + " it was",
-      100.0 * finding.selected_share);
+      100.0 * finding.selected_share,
+      finding.open_in_train
+          ? " The train trials leave it open, with nothing as its best value: what is given is "
+            "what the held-out ones ask for."
+          : "");
 }
 
 std::string summary(const Diagnosis& diagnosis) {
