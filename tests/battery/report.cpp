@@ -208,9 +208,9 @@ std::string explanation(const Result& result) {
   add("ranking", result.ranking);
   add("leads", result.leads);
   for (const validation::PairRow& row : result.pairs) {
-    text += fmt::format("    pair     {:<34} + {:<34} train {:9.3f} held-out {:9.3f}  {}\n",
-                        row.first.effect + "@" + row.first.at, row.second.effect + "@" + row.second.at,
-                        row.train_after, row.held_out_after, row.remark);
+    text +=
+        fmt::format("    pair     {:<34} + {:<34} train {:9.3f} held-out {:9.3f}  {}\n", row.first.label(),
+                    row.second.label(), row.train_after, row.held_out_after, row.remark);
   }
   return text;
 }

@@ -117,17 +117,14 @@ bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::E
   return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front(), kMostNames);
 }
 
-/// The ladder's last model before anything was added: its own numbers are fitted, where they are free.
-const validation::Rung& bare_rung(const validation::Diagnosis& diagnosis) {
-  const auto added = std::find_if(diagnosis.ladder.begin(), diagnosis.ladder.end(),
-                                  [](const validation::Rung& rung) { return rung.name.rfind("+ ", 0) == 0; });
-  return *std::prev(added);
-}
-
 void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
-  result.after = diagnosis.final_stage.estimate.scores.held_out;
-  result.before = bare_rung(diagnosis).foretold();
+  // Values that the held-out trials have helped to choose predict them no more.
+  const bool open = std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
+                                [](const validation::Finding& finding) { return finding.open_in_train; });
+  const validation::Rung& last = diagnosis.ladder.back();
+  result.after = open ? last.foretold() : last.held_out();
+  result.before = diagnosis.bare().foretold();
   result.visible = result.before >= kVisible;
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;
@@ -138,7 +135,7 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
       finds(diagnosis.accepted.front(), truth.hidden.front(), 1 + diagnosis.accepted.front().rivals.size());
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];
-    const std::string name = finding.effect + "@" + finding.at;
+    const std::string name = finding.label();
     if (i == 0) {
       result.first = name;
       result.set_size = 1 + static_cast<int>(finding.rivals.size());

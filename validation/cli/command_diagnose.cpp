@@ -107,8 +107,8 @@ void print_pairs(const std::vector<PairRow>& pairs) {
   fmt::print("\nTried two at once:\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const PairRow& r : pairs) {
-    rows.push_back({r.first.effect + "@" + r.first.at, r.second.effect + "@" + r.second.at,
-                    fmt::format("{:.3f}", r.train_after), fmt::format("{:.3f}", r.held_out_after), r.remark});
+    rows.push_back({r.first.label(), r.second.label(), fmt::format("{:.3f}", r.train_after),
+                    fmt::format("{:.3f}", r.held_out_after), r.remark});
   }
   print_table({"one", "other", "train", "held-out", "remark"}, rows);
 }

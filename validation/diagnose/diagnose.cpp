@@ -7,6 +7,7 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
+#include "validation/diagnose/finish.h"
 #include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/revise.h"
@@ -42,95 +43,7 @@ class Diagnoser {
     }
   }
 
-  /// The ladder on all windows, where candidates were tried on a part of them.
-  void rescore(const Data& all, Diagnosis& diagnosis) const {
-    for (Rung& rung : diagnosis.ladder) {
-      progress_("all windows for " + rung.name, 0.9);
-      PredictorPool pool(rung.stage.model, all);
-      rung.stage.estimate =
-          gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {}, {8, 1e-3});
-    }
-    diagnosis.final_stage = diagnosis.ladder.back().stage;
-    for (Finding& finding : diagnosis.accepted) {
-      for (std::size_t r = 1; r < diagnosis.ladder.size(); ++r) {
-        if (diagnosis.ladder[r].name == "+ " + finding.effect + "@" + finding.at) {
-          finding.train_before = diagnosis.ladder[r - 1].train();
-          finding.held_out_before = diagnosis.ladder[r - 1].foretold();
-          finding.train_after = diagnosis.ladder[r].train();
-          finding.held_out_after = diagnosis.ladder[r].foretold();
-        }
-      }
-    }
-  }
-
-  /// An early guess that the later ones make superfluous is dropped again.
-  void drop_superfluous(const Data& all, Diagnosis& diagnosis) const {
-    for (std::size_t i = 0; diagnosis.accepted.size() > 1 && i + 1 < diagnosis.accepted.size();) {
-      Stage& stage = diagnosis.final_stage;
-      const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + i);
-      progress_("is " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at + " still needed", 0.9);
-      Stage without = without_effect(stage, effect);
-      PredictorPool pool(without.model, all);
-      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
-                                      {}, {10, 1e-3});
-      const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
-      if (rise < options_.material) {
-        diagnosis.ladder.push_back(
-            {"- " + diagnosis.accepted[i].effect + "@" + diagnosis.accepted[i].at, without});
-        diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(i));
-        stage = without;
-      } else {
-        ++i;
-      }
-    }
-  }
-
-  /// Where a named law is nothing at the train trials' best values, those are taken that serve all trials.
-  void take_open_values(const Data& all, Diagnosis& diagnosis) const {
-    Stage& stage = diagnosis.final_stage;
-    const model::Model fitted = with_values(stage.model, stage.parameters, stage.estimate.theta);
-    const std::size_t first = fitted.effects.size() - diagnosis.accepted.size();
-    bool open = false;
-    for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
-      const model::EffectUse& use = fitted.effects[first + i];
-      diagnosis.accepted[i].open_in_train = use.law->is_null(use.numbers().data());
-      open = open || diagnosis.accepted[i].open_in_train;
-    }
-    if (!open) {
-      return;
-    }
-    const Prediction predicted = stage.estimate.predicted;
-    stage.model = with_values(stage.model, stage.parameters, predicted.theta);
-    PredictorPool pool(stage.model, all);
-    stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
-    stage.estimate.theta = predicted.theta;
-    stage.estimate.predicted = predicted;
-    diagnosis.ladder.back().stage = stage;
-  }
-
-  void conclude(Diagnosis& diagnosis) const {
-    const double before = judged(diagnosis.ladder[bare_rungs(diagnosis) - 1].stage.estimate, data_);
-    const double after = judged(diagnosis.final_stage.estimate, data_);
-    const double excess = before * before - 1.0;
-    diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
-    if (diagnosis.accepted.empty()) {
-      diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
-    } else {
-      // Names that leave the error far above the floor are a part of the answer at best.
-      diagnosis.verdict = after < options_.finished ? Verdict::missing : Verdict::unexplained;
-    }
-    if (diagnosis.verdict == Verdict::nothing_missing) {
-      diagnosis.unexplained_share = 0.0;
-    }
-  }
-
  private:
-  /// How many rungs come before anything was added.
-  static std::size_t bare_rungs(const Diagnosis& diagnosis) {
-    const bool fitted = diagnosis.ladder.size() > 1 && diagnosis.ladder[1].name == "own parameters fitted";
-    return fitted ? 2 : 1;
-  }
-
   void start(const model::Model& model, Diagnosis& diagnosis) {
     progress_("the model as given", 0.0);
     Stage& stage = diagnosis.final_stage;
@@ -149,13 +62,14 @@ class Diagnoser {
       }
     }
     revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
-    conclude(diagnosis);
+    conclude(data_, options_, diagnosis);
   }
 
   /// As a whole: an interruption must not leave parameters without their values.
   static void restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
     Diagnosis anew;
     anew.ladder = ladder;
+    anew.bare_rungs = ladder.size();
     anew.final_stage = ladder.back().stage;
     diagnosis = std::move(anew);
   }
@@ -230,7 +144,7 @@ class Diagnoser {
     std::vector<std::string> names;
     names.reserve(findings.size());
     for (const Finding& finding : findings) {
-      names.push_back(finding.effect + "@" + finding.at);
+      names.push_back(finding.label());
     }
     return names;
   }
@@ -296,10 +210,7 @@ class Diagnoser {
     }
     const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
     const Stage both = after(pair.refit);
-    Stage single = without_effect(both, pair.refit.added.back());
-    PredictorPool pool(single.model, data_);
-    single.estimate =
-        gauss_newton(pool, single.parameters, values_of(single.model, single.parameters), {}, {10, 1e-3});
+    const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
     const bool needed =
         judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
     if (is_finished(both.estimate) && needed) {
@@ -325,7 +236,7 @@ class Diagnoser {
     }
     std::vector<Finding> accepted{first, second};
     set_values(after(pair.refit), data_, accepted);
-    diagnosis.ladder.resize(bare_rungs(diagnosis));
+    diagnosis.ladder.resize(diagnosis.bare_rungs);
     diagnosis.ladder.push_back({"+ " + pair.first.label(), single});
     diagnosis.final_stage = after(pair.refit);
     diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage});
@@ -368,16 +279,16 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   try {
     diagnoser.run(model, diagnosis);
     if (part.windows.size() < data.windows.size()) {
-      diagnoser.rescore(data, diagnosis);
+      rescore(data, progress, diagnosis);
     }
-    diagnoser.drop_superfluous(data, diagnosis);
-    diagnoser.take_open_values(data, diagnosis);
+    drop_superfluous(data, options, progress, diagnosis);
+    take_open_values(data, diagnosis);
     set_values(diagnosis.final_stage, data, diagnosis.accepted);
-    diagnoser.conclude(diagnosis);
+    conclude(data, options, diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      diagnoser.conclude(diagnosis);
+      conclude(data, options, diagnosis);
     }
   }
   return diagnosis;

@@ -33,6 +33,7 @@ struct ParameterValue {
 
 struct Named {
   std::string effect, at;
+  std::string label() const { return effect + "@" + at; }
 };
 
 /// What the data cannot tell from a finding.
@@ -55,6 +56,7 @@ struct Finding {
   /// The train trials' best value is no effect at all, though they leave it open: the values are then those
   /// that serve the held-out trials, too, and their error is no prediction any more.
   bool open_in_train = false;
+  std::string label() const { return effect + "@" + at; }
 };
 
 struct RankRow {
@@ -98,7 +100,9 @@ struct Diagnosis {
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened
   bool interrupted = false;
-  Stage final_stage;  ///< model with everything accepted, its parameters and estimate
+  Stage final_stage;           ///< model with everything accepted, its parameters and estimate
+  std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
+  const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };
 
 /// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.

@@ -164,9 +164,8 @@ double evidence_for_stated(const Stage& stage, const Data& data, double width) {
     shift[p] = (open.theta.tail(own)[p] - parameter.mean) / parameter.deviation;
   }
   const Eigen::LDLT<Eigen::MatrixXd> known(left.H + Eigen::MatrixXd::Identity(own, own));
-  // Mean of the own parameters after the data: (I + S) mean = g + S shift.
-  const Eigen::VectorXd mean = known.solve(left.g + left.H * shift);
-  return 0.5 * (known.vectorD().array().abs().log().sum() - mean.dot(left.g + left.H * shift));
+  const Eigen::VectorXd pull = left.g + left.H * shift;
+  return 0.5 * (known.vectorD().array().abs().log().sum() - pull.dot(known.solve(pull)));
 }
 
 std::vector<OwnParameter> own_values(const Stage& stage) {

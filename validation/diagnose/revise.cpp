@@ -65,7 +65,7 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   accepted.push_back(finding);
   const Stage next = after(winner.refit);
   set_values(next, data, accepted);
-  diagnosis.ladder.push_back({winner.candidate.label() + " for " + old.effect + "@" + old.at, next});
+  diagnosis.ladder.push_back({winner.candidate.label() + " for " + old.label(), next});
   diagnosis.final_stage = next;
   diagnosis.accepted = accepted;
 }
@@ -95,15 +95,10 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
     if (finding.rivals.empty()) {
       continue;
     }
-    progress("the rivals of " + finding.effect + "@" + finding.at, 0.9);
+    progress("the rivals of " + finding.label(), 0.9);
     const Stage& final_stage = diagnosis.final_stage;
-    Stage without =
-        without_effect(final_stage, static_cast<int>(final_stage.model.effects.size() - count + i));
-    {
-      PredictorPool pool(without.model, data);
-      without.estimate = gauss_newton(pool, without.parameters, values_of(without.model, without.parameters),
-                                      {}, {10, 1e-3});
-    }
+    const auto effect = static_cast<int>(final_stage.model.effects.size() - count + i);
+    const Stage without = fitted_anew(without_effect(final_stage, effect), data);
     Refit present;
     present.estimate = final_stage.estimate;
     std::optional<InPlace> winner;

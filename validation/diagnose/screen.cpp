@@ -114,6 +114,13 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
 
 }  // namespace
 
+Stage fitted_anew(Stage stage, const Data& data) {
+  PredictorPool pool(stage.model, data);
+  stage.estimate =
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {10, 1e-3});
+  return stage;
+}
+
 Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values) {
   Extended extended{with_values(stage.model, stage.parameters, stage.estimate.theta), stage.parameters, {}};
   extended.model.effects.push_back(make_use(candidate, values));

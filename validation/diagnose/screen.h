@@ -17,6 +17,9 @@ struct Stage {
   Estimate estimate;
 };
 
+/// The stage with its parameters fitted anew from its model's values.
+Stage fitted_anew(Stage stage, const Data& data);
+
 /// A candidate with the values from which it is tried, and what the linearised windows promise.
 struct Hypothesis {
   int candidate = 0;

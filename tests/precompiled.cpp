@@ -1,0 +1,1 @@
+// Only headers: PlumblineTargets.cmake lists them.

@@ -1,0 +1,87 @@
+#include "validation/diagnose/finish.h"
+
+#include <algorithm>
+
+#include "validation/diagnose/choose.h"
+#include "validation/diagnose/revise.h"
+
+namespace plumbline::validation {
+
+void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+  for (Rung& rung : diagnosis.ladder) {
+    progress("all windows for " + rung.name, 0.9);
+    PredictorPool pool(rung.stage.model, all);
+    rung.stage.estimate = gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {}, {8, 1e-3});
+  }
+  diagnosis.final_stage = diagnosis.ladder.back().stage;
+  for (Finding& finding : diagnosis.accepted) {
+    for (std::size_t r = 1; r < diagnosis.ladder.size(); ++r) {
+      if (diagnosis.ladder[r].name == "+ " + finding.label()) {
+        finding.train_before = diagnosis.ladder[r - 1].train();
+        finding.held_out_before = diagnosis.ladder[r - 1].foretold();
+        finding.train_after = diagnosis.ladder[r].train();
+        finding.held_out_after = diagnosis.ladder[r].foretold();
+      }
+    }
+  }
+}
+
+void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
+                      Diagnosis& diagnosis) {
+  std::vector<Finding>& accepted = diagnosis.accepted;
+  for (std::size_t i = 0; accepted.size() > 1 && i + 1 < accepted.size();) {
+    Stage& stage = diagnosis.final_stage;
+    const std::string name = accepted[i].label();
+    progress("is " + name + " still needed", 0.9);
+    const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + i);
+    const Stage without = fitted_anew(without_effect(stage, effect), all);
+    const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
+    if (rise < options.material) {
+      diagnosis.ladder.push_back({"- " + name, without});
+      accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
+      stage = without;
+    } else {
+      ++i;
+    }
+  }
+}
+
+void take_open_values(const Data& all, Diagnosis& diagnosis) {
+  Stage& stage = diagnosis.final_stage;
+  const model::Model fitted = with_values(stage.model, stage.parameters, stage.estimate.theta);
+  const std::size_t first = fitted.effects.size() - diagnosis.accepted.size();
+  bool open = false;
+  for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
+    const model::EffectUse& use = fitted.effects[first + i];
+    diagnosis.accepted[i].open_in_train = use.law->is_null(use.numbers().data());
+    open = open || diagnosis.accepted[i].open_in_train;
+  }
+  if (!open) {
+    return;
+  }
+  const Prediction predicted = stage.estimate.predicted;
+  stage.model = with_values(stage.model, stage.parameters, predicted.theta);
+  PredictorPool pool(stage.model, all);
+  stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  stage.estimate.theta = predicted.theta;
+  stage.estimate.predicted = predicted;
+  diagnosis.ladder.back().stage = stage;
+}
+
+void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis) {
+  const double before = judged(diagnosis.bare().stage.estimate, data);
+  const double after = judged(diagnosis.final_stage.estimate, data);
+  const double excess = before * before - 1.0;
+  diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
+  if (diagnosis.accepted.empty()) {
+    diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
+  } else {
+    // Names that leave the error far above the floor are a part of the answer at best.
+    diagnosis.verdict = after < options.finished ? Verdict::missing : Verdict::unexplained;
+  }
+  if (diagnosis.verdict == Verdict::nothing_missing) {
+    diagnosis.unexplained_share = 0.0;
+  }
+}
+
+}  // namespace plumbline::validation

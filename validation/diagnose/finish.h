@@ -1,0 +1,21 @@
+// What is done with a diagnosis when nothing more is looked for.
+#pragma once
+
+#include "validation/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+
+/// The ladder on all windows, where candidates were tried on a part of them.
+void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
+
+/// An early guess that the later ones make superfluous is dropped again.
+void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
+                      Diagnosis& diagnosis);
+
+/// Where a named law is nothing at the train trials' best values, those are taken that serve all trials.
+void take_open_values(const Data& all, Diagnosis& diagnosis);
+
+/// The verdict, and the share of the squared error above the floor that is left.
+void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis);
+
+}  // namespace plumbline::validation
