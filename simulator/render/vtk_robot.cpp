@@ -42,7 +42,7 @@ vtkSmartPointer<vtkActor> edges_of(vtkPolyData* surface, const Color& color) {
   sharp->Update();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(sharp->GetOutput());
-  const auto actor = vtkSmartPointer<vtkActor>::New();
+  auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   const Color dark = 0.62 * color;
   actor->GetProperty()->SetColor(dark.x(), dark.y(), dark.z());

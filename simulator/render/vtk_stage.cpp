@@ -106,9 +106,10 @@ void add_grid(const Stage& stage, double reach, double distance, double strength
   Sheet sheet;
   for (const bool along_x : {true, false}) {
     const double middle = along_x ? stage.center.y() : stage.center.x();
-    const double first = std::ceil((middle - reach) / distance) * distance;
-    for (double at = first; at <= middle + reach; at += distance) {
-      add_line(sheet, stage, reach, along_x, at, strength);
+    const auto first = static_cast<long>(std::ceil((middle - reach) / distance));
+    const auto last = static_cast<long>(std::floor((middle + reach) / distance));
+    for (long line = first; line <= last; ++line) {
+      add_line(sheet, stage, reach, along_x, static_cast<double>(line) * distance, strength);
     }
   }
   const vtkSmartPointer<vtkActor> actor = sheet.actor(true);
