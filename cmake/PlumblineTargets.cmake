@@ -20,16 +20,21 @@ function(plumbline_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# What nearly all tests include, compiled once. ccache needs -fpch-preprocess to see what GCC reads.
+# Options of tests and of the header that they share. ccache needs -fpch-preprocess to see what GCC reads.
+function(plumbline_test_options target)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  plumbline_options(${target})
+  plumbline_compile_quickly(${target})
+endfunction()
+
+# What nearly all tests include, compiled once.
 function(plumbline_precompiled_tests)
   add_library(precompiled_tests OBJECT ${CMAKE_SOURCE_DIR}/tests/precompiled.cpp)
   target_link_libraries(precompiled_tests PRIVATE GTest::gtest_main GTest::gmock Eigen3::Eigen)
-  target_compile_options(precompiled_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   target_precompile_headers(precompiled_tests PRIVATE
     <gmock/gmock.h> <gtest/gtest.h> <Eigen/Dense>
     <algorithm> <cmath> <fstream> <functional> <map> <memory> <random> <sstream> <string> <vector>)
-  plumbline_options(precompiled_tests)
-  plumbline_compile_quickly(precompiled_tests)
+  plumbline_test_options(precompiled_tests)
 endfunction()
 
 # plumbline_library(NAME SOURCES a.cpp ... LIBS x y): a static library plumbline_NAME, includes from the root.
@@ -48,9 +53,7 @@ function(plumbline_test name)
   target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(test_${name} PRIVATE ${ARG_LIBS} GTest::gtest_main GTest::gmock)
   target_compile_definitions(test_${name} PRIVATE PLUMBLINE_ROOT="${CMAKE_SOURCE_DIR}")
-  target_compile_options(test_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
-  plumbline_options(test_${name})
-  plumbline_compile_quickly(test_${name})
+  plumbline_test_options(test_${name})
   target_precompile_headers(test_${name} REUSE_FROM precompiled_tests)
   plumbline_link_options(test_${name})
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

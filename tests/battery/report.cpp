@@ -200,7 +200,7 @@ std::string explanation(const Result& result) {
     for (std::size_t i = 0; i < std::min(rows.size(), kShown); ++i) {
       const validation::RankRow& row = rows[i];
       text += fmt::format("    {:<8} {:<34} {} train {:9.3f} held-out {:9.3f}  {}\n", i == 0 ? title : "",
-                          row.effect + "@" + row.at, row.refitted ? "refit  " : "promise", row.train_after,
+                          row.label(), row.refitted ? "refit  " : "promise", row.train_after,
                           row.held_out_after, row.remark);
     }
   };

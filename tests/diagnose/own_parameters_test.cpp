@@ -72,10 +72,7 @@ TEST(OwnParameters, DataSpeakForTheStatedNumbersOnlyWhereTheyAreTrue) {
 Stage with_own_fitted(const model::Model& bare, const Data& data) {
   Stage stage{with_stated_errors(bare), {}, {}};
   stage.parameters = stated_parameters(stage.model, 3.0);
-  PredictorPool pool(stage.model, data);
-  stage.estimate =
-      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {10, 1e-4});
-  return stage;
+  return fitted_anew(stage, data);
 }
 
 // The density ratio is one number, from wherever the log density is expanded.

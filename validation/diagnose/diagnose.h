@@ -44,8 +44,7 @@ struct Rival {
 
 /// One accepted effect. Held-out errors are those that the train trials foretell with what they leave open of
 /// the values (validation/predict/foretell.h); the ladder has those at the best values for train as well.
-struct Finding {
-  std::string effect, at;
+struct Finding : Named {
   std::vector<ParameterValue> parameters;
   std::vector<Rival> rivals;
   double held_out_before = 0.0, held_out_after = 0.0;
@@ -56,11 +55,9 @@ struct Finding {
   /// The train trials' best value is no effect at all, though they leave it open: the values are then those
   /// that serve the held-out trials, too, and their error is no prediction any more.
   bool open_in_train = false;
-  std::string label() const { return effect + "@" + at; }
 };
 
-struct RankRow {
-  std::string effect, at;
+struct RankRow : Named {
   double score = 0.0;  ///< mean square of train and held-out together with this effect added, floor units
   double held_out_after = 0.0;  ///< foretold
   double train_after = 0.0;
