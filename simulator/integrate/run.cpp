@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulator/integrate/plant_ode.h"
+#include "simulator/integrate/plate_means.h"
 
 namespace plumbline::integrate {
 namespace {
@@ -19,10 +20,17 @@ struct EnergyAccount {
   }
 };
 
-void read_sensors(const model::Plant& plant, const Eigen::VectorXd& x, const Readout& readout,
-                  Eigen::Index sample, RunResult& result) {
+/// Of a stretch over which a plate's force is averaged.
+int pieces_of(double time) {
+  constexpr double kPiece = 5e-5;  // s
+  return std::max(1, static_cast<int>(std::ceil(time / kPiece)));
+}
+
+void read_sensors(model::Plant& plant, const Eigen::VectorXd& x, const PlateMeans& plates,
+                  const Readout& readout, Eigen::Index sample, RunResult& result) {
   Eigen::VectorXd y(plant.sensors());
   plant.outputs(x.data(), y.data());
+  plates.write(y.data());
   result.outputs.col(sample) = y;
   if (readout) {
     readout(y);
@@ -48,13 +56,15 @@ RunResult run(model::Plant& plant, const Eigen::VectorXd& x0, HeldCommands comma
   x.head(nx) = x0;
   integrator.start(t0, x);
   EnergyAccount account;
+  PlateMeans plates(plant);
   Eigen::VectorXd command(plant.motors());
   for (Eigen::Index k = 0; k < samples; ++k) {
     const double t = t0 + static_cast<double>(k) * commands.period();
     result.time[k] = t;
     x = integrator.state();
     result.states.col(k) = x.head(nx);
-    read_sensors(plant, x, readout, k, result);
+    read_sensors(plant, x, plates, readout, k, result);
+    plates.begin(t, x.data());
     commands.held(k, command.data());
     if (controller) {
       controller(k, t, result.readings.col(k), command.data());
@@ -69,7 +79,13 @@ RunResult run(model::Plant& plant, const Eigen::VectorXd& x0, HeldCommands comma
       commands.at(k, b, ode.command());
       integrator.input_changed(true);
       const double end = b + 1 < commands.breaks().size() ? commands.breaks()[b + 1] : 1.0;
-      integrator.advance(t0 + (static_cast<double>(k) + end) * commands.period());
+      const double from = commands.breaks()[b];
+      const int pieces = plates.any() ? pieces_of((end - from) * commands.period()) : 1;
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const double part = from + (end - from) * piece / pieces;
+        integrator.advance(t0 + (static_cast<double>(k) + part) * commands.period());
+        plates.add(t0 + (static_cast<double>(k) + part) * commands.period(), integrator.state().data());
+      }
     }
   }
   if (options.energy) {

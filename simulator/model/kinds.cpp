@@ -5,6 +5,18 @@
 
 namespace plumbline::model {
 
+std::string reading_unit(const Model& model, const std::string& sensor) {
+  const Sensor* known = model.find_sensor(sensor);
+  if (known != nullptr && known->is_force_plate()) {
+    return force_unit(false);
+  }
+  return position_unit(model.place_is_angular(effects::Place::sensor, sensor));
+}
+
+std::string reading_column(const Sensor& sensor) {
+  return (sensor.is_force_plate() ? "F_" : "q_") + sensor.name;
+}
+
 std::string ratio_unit(bool motor_angular, bool coordinate_angular) {
   if (motor_angular == coordinate_angular) {
     return "1";

@@ -12,6 +12,10 @@ namespace plumbline::model {
 inline std::string position_unit(bool angular) { return angular ? "rad" : "m"; }
 inline std::string force_unit(bool angular) { return angular ? "N m" : "N"; }
 inline std::string inertia_unit(bool angular) { return angular ? "kg m^2" : "kg"; }
+/// Of what a sensor of the model reads: rad, m, or N of a force plate.
+std::string reading_unit(const Model& model, const std::string& sensor);
+/// The column of its readings in traces and trials that Plumbline writes: q_knee, F_plate.
+std::string reading_column(const Sensor& sensor);
 /// Motor position per coordinate position.
 std::string ratio_unit(bool motor_angular, bool coordinate_angular);
 

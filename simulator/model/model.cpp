@@ -58,6 +58,10 @@ int Model::body_index(const std::string& name) const { return index_of(skeleton.
 int Model::motor_index(const std::string& name) const { return index_of(motors, name); }
 int Model::sensor_index(const std::string& name) const { return index_of(sensors, name); }
 
+bool Model::has_force_plate() const {
+  return std::any_of(sensors.begin(), sensors.end(), [](const Sensor& one) { return one.is_force_plate(); });
+}
+
 std::vector<std::string> Model::places(effects::Place place) const {
   std::vector<std::string> names;
   switch (place) {
@@ -79,7 +83,11 @@ std::vector<std::string> Model::places(effects::Place place) const {
       append_names(skeleton.bodies, names);
       break;
     case effects::Place::sensor:
-      append_names(sensors, names);
+      for (const Sensor& sensor : sensors) {
+        if (!sensor.is_force_plate()) {  // the laws at sensors are those of encoders
+          names.push_back(sensor.name);
+        }
+      }
       break;
     case effects::Place::world:
       names.emplace_back("world");

@@ -119,14 +119,16 @@ struct EffectUse {
   std::string label() const;  ///< "viscous at mLA"
 };
 
-/// One measured channel.
+/// One measured channel: a position, or the vertical force of the ground on some feet (a force plate).
 struct Sensor {
   std::string name;
-  std::string measures;   ///< coordinate, motor or pulley
-  double resolution = 0;  ///< position per count, SI; 0: continuous
+  std::string measures;   ///< coordinate, motor or pulley; of a force plate empty
+  double resolution = 0;  ///< position (or force) per count, SI; 0: continuous
   double offset = 0;      ///< SI
   double noise = 0;       ///< standard deviation, SI
   std::string source;
+  std::vector<int> feet{};  ///< that stand on the force plate, indices in Model::feet; else empty
+  bool is_force_plate() const { return !feet.empty(); }
   /// Residual that the sensor alone would leave: sqrt(resolution^2/12 + noise^2).
   double floor() const;
 };
@@ -168,6 +170,7 @@ struct Model {
   int body_index(const std::string& name) const;    ///< -1
   int motor_index(const std::string& name) const;   ///< -1
   int sensor_index(const std::string& name) const;  ///< -1
+  bool has_force_plate() const;
   /// Names of the places where a law may sit, in file order.
   std::vector<std::string> places(effects::Place place) const;
   /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear

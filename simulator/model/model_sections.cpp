@@ -217,6 +217,12 @@ double read_resolution(const YamlNode& node, bool angular, std::string& source) 
   return resolution;
 }
 
+void read_noise(const YamlNode& node, const std::string& unit, Sensor& sensor) {
+  if (const auto noise = node.find("noise")) {
+    sensor.noise = read_quantity(*noise, {unit, Sign::not_negative, false, {}}).value;
+  }
+}
+
 Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& model) {
   check_name(name, node);
   node.allow_keys(
@@ -236,23 +242,41 @@ Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& m
   if (const auto offset = node.find("offset")) {
     sensor.offset = read_quantity(*offset, {position_unit(angular), Sign::any, false, {}}).value;
   }
-  if (const auto noise = node.find("noise")) {
-    sensor.noise = read_quantity(*noise, {position_unit(angular), Sign::not_negative, false, {}}).value;
-  }
+  read_noise(node, position_unit(angular), sensor);
   if (node.has("source") || node.has("assumed") || !node.has("resolution")) {
     sensor.source = read_origin(node).text;
   }
   return sensor;
 }
 
+int foot_of(const YamlNode& node, const Model& model) {
+  require_known(node, node.text(), model.places(effects::Place::foot), "foot of the model");
+  const auto is_it = [&](const Foot& one) { return one.name == node.text(); };
+  return static_cast<int>(std::find_if(model.feet.begin(), model.feet.end(), is_it) - model.feet.begin());
+}
+
+Sensor read_force_plate(const std::string& name, const YamlNode& node, const Model& model) {
+  check_name(name, node);
+  node.allow_keys({"force", "resolution", "noise", "source", "assumed"});
+  Sensor sensor;
+  sensor.name = name;
+  for (const YamlNode& item : node.at("force").items()) {
+    sensor.feet.push_back(foot_of(item, model));
+  }
+  if (sensor.feet.empty()) {
+    node.at("force").refuse("no feet", "the feet that stand on the plate, [toe]");
+  }
+  sensor.resolution =
+      read_quantity(node.at("resolution"), {force_unit(false), Sign::positive, false, {}}).value;
+  read_noise(node, force_unit(false), sensor);
+  sensor.source = read_origin(node).text;
+  return sensor;
+}
+
 ContactSwitch read_switch(const std::string& name, const YamlNode& node, const Model& model) {
   check_name(name, node);
   node.allow_keys({"contact", "source", "assumed"});
-  const YamlNode foot = node.at("contact");
-  require_known(foot, foot.text(), model.places(effects::Place::foot), "foot of the model");
-  const auto is_it = [&](const Foot& one) { return one.name == foot.text(); };
-  const auto found = std::find_if(model.feet.begin(), model.feet.end(), is_it);
-  return {name, static_cast<int>(found - model.feet.begin()), read_origin(node).text};
+  return {name, foot_of(node.at("contact"), model), read_origin(node).text};
 }
 
 Eigen::Vector3d read_point(const YamlNode& node) {
@@ -346,6 +370,8 @@ void read_sensors(const YamlNode& node, Model& model) {
   for (const auto& [name, entry] : node.entries()) {
     if (entry.is_map() && entry.has("contact")) {
       model.switches.push_back(read_switch(name, entry, model));
+    } else if (entry.is_map() && entry.has("force")) {
+      model.sensors.push_back(read_force_plate(name, entry, model));
     } else {
       model.sensors.push_back(read_sensor(name, entry, model));
     }

@@ -262,9 +262,14 @@ void Plant::place_sensors() {
   output_offset_.resize(sensors());
   for (int s = 0; s < sensors(); ++s) {
     const Sensor& sensor = model_.sensors[static_cast<std::size_t>(s)];
-    sensor_lines_.push_back(line_of(full_direction(sensor.measures)));
-    output_map_.row(s) = sensor_lines_.back().reduced.transpose();
-    output_offset_[s] = sensor_lines_.back().offset + sensor.offset;
+    if (sensor.is_force_plate()) {
+      output_map_.row(s).setZero();
+      output_offset_[s] = 0.0;
+      continue;
+    }
+    const Line line = line_of(full_direction(sensor.measures));
+    output_map_.row(s) = line.reduced.transpose();
+    output_offset_[s] = line.offset + sensor.offset;
   }
   for (const Motor& motor : model_.motors) {
     motor_lines_.push_back(line_of(full_direction(motor.name)));

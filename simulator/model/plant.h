@@ -86,9 +86,12 @@ class Plant {
   /// Time derivative of the state for the commands that hold now (delayed already, in command units).
   void rate(const double* x, const double* command, double* xdot);
 
+  /// d2z/dt2 of a start at rest under gravity alone, without any effect's force.
+  Eigen::VectorXd fall(const double* x);
+
   /// What the sensors would read without quantisation and noise, SI.
-  void outputs(const double* x, double* y) const;
-  /// d(true position of sensor)/dz, sensors x positions.
+  void outputs(const double* x, double* y);
+  /// d(true position of sensor)/dz, sensors x positions; a force plate's row is zero.
   const Eigen::MatrixXd& output_map() const { return output_map_; }
   /// True position of each sensor at z = 0.
   const Eigen::VectorXd& output_offset() const { return output_offset_; }
@@ -167,7 +170,7 @@ class Plant {
   /// d(outputs)/d(parameters) at x, sensors x parameters.
   void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
                       const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
-  /// d(outputs)/dz with the sensors' own scale effects, sensors x positions.
+  /// d(outputs)/dz with the sensors' own scale effects, sensors x positions; a force plate's row is zero.
   void output_jacobian(const double* x, Eigen::MatrixXd& C);
 
   /// Approximate d(rate)/dx for implicit integrators: mass matrix and the effects' own slopes, no further
@@ -260,6 +263,7 @@ class Plant {
   void foot_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void ground_energetics(const double* x, Energetics& e) const;
+  void plate_outputs(const double* x, double* y);
   Structure make_structure() const;
   void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
   void check_mass_matrix();
@@ -305,7 +309,7 @@ class Plant {
   std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
   std::vector<StructureSlot> structures_;
   std::vector<std::vector<SensorSlot>> sensor_effects_;
-  std::vector<Line> motor_lines_, sensor_lines_;
+  std::vector<Line> motor_lines_;
   Eigen::MatrixXd output_map_, stretch_map_;
   Eigen::VectorXd output_offset_;
   Structure structure_;

@@ -150,6 +150,13 @@ void Plant::rate(const double* x, const double* command, double* xdot) {
   }
 }
 
+Eigen::VectorXd Plant::fall(const double* x) {
+  Eigen::VectorXd at_rest = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  at_rest.segment(nz_, nz_).setZero();
+  factor_at(at_rest.data());
+  return factor_.solve(-h_);
+}
+
 void Plant::raise_speeds(const double* x, double* speeds) {
   rigid_at(x);
   const Vector w(x + nz_, nz_);
@@ -162,7 +169,7 @@ void Plant::raise_speeds(const double* x, double* speeds) {
   }
 }
 
-void Plant::outputs(const double* x, double* y) const {
+void Plant::outputs(const double* x, double* y) {
   for (int s = 0; s < sensors(); ++s) {
     double reading = output_offset_[s];
     for (int i = 0; i < nz_; ++i) {
@@ -173,6 +180,7 @@ void Plant::outputs(const double* x, double* y) const {
     }
     y[s] = reading;
   }
+  plate_outputs(x, y);
 }
 
 void Plant::carry_force_states(const double* from, const double* to, double h, double* x) const {

@@ -45,6 +45,8 @@ PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>&
   solver_.compute(C);
 }
 
+Eigen::VectorXd PositionsFrom::deviations() const { return solver_.pseudoInverse().rowwise().norm(); }
+
 Eigen::MatrixXd PositionsFrom::solve(const Eigen::MatrixXd& weighted) const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(weighted.rows() + stretches_, weighted.cols());
   right.topRows(weighted.rows()) = weighted;

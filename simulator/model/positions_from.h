@@ -29,6 +29,9 @@ class PositionsFrom {
   /// False when the channels (and stretches of zero) leave some combination of coordinates open.
   bool determined() const { return solver_.rank() == positions_; }
 
+  /// One standard deviation of each of z as the channels' deviations leave it; what none sees: 0.
+  Eigen::VectorXd deviations() const;
+
   /// z, positions x samples, from values, channels x samples.
   Eigen::MatrixXd positions(const Eigen::MatrixXd& values) const;
   /// dz/dt from the channels' rates.

@@ -25,6 +25,15 @@ class CsvEvents {
  public:
   explicit CsvEvents(std::string file) : file_(std::move(file)) {}
 
+  /// The file has no header: its columns have these names and no units.
+  CsvEvents(std::string file, const std::vector<std::string>& names)
+      : file_(std::move(file)), in_header_(false), has_header_(false) {
+    for (const std::string& name : names) {
+      columns_.push_back({name, "", {}});
+    }
+    values_.resize(columns_.size());
+  }
+
   void field(std::string_view text) {
     if (!error_) {
       line_has_fields_ = true;
@@ -42,7 +51,7 @@ class CsvEvents {
     }
     if (line_has_fields_) {
       end_row();
-    } else if (first_empty_line_ == 0) {
+    } else if (first_empty_line_ == 0 && (has_header_ || rows_ > 0)) {
       first_empty_line_ = line_;
     }
     line_has_fields_ = false;
@@ -62,7 +71,7 @@ class CsvEvents {
       line_ = 1;
       refuse("an empty file", "a header line `name [unit],...`");
     } else if (!error_ && rows_ == 0) {
-      refuse("no rows", "at least one row of numbers behind the header");
+      refuse("no rows", has_header_ ? "at least one row of numbers behind the header" : "rows of numbers");
     }
     if (error_) {
       throw InputError(*error_);
@@ -129,7 +138,7 @@ class CsvEvents {
     }
     if (fields_in_row_ != columns_.size()) {
       return refuse(std::to_string(fields_in_row_) + " fields",
-                    std::to_string(columns_.size()) + " as in the header");
+                    std::to_string(columns_.size()) + (has_header_ ? " as in the header" : " as named"));
     }
     fields_in_row_ = 0;
     ++rows_;
@@ -153,6 +162,7 @@ class CsvEvents {
   int first_empty_line_ = 0;
   int last_terminator_ = 0;
   bool in_header_ = true;
+  bool has_header_ = true;
   bool line_has_fields_ = false;
 };
 
@@ -192,6 +202,16 @@ class CsvParser {
   csv_parser parser_{};
 };
 
+Table parsed(const std::string& path, CsvEvents events) {
+  const std::string text = read_text(path);
+  std::string_view content = text;
+  if (content.substr(0, 3) == "\xEF\xBB\xBF") {
+    content.remove_prefix(3);  // byte order mark of some spreadsheets
+  }
+  CsvParser().run(content, events);
+  return events.table();
+}
+
 std::string header_text(const Table& table) {
   std::string text;
   for (const Column& column : table.columns) {
@@ -212,15 +232,10 @@ std::string header_text(const Table& table) {
 
 }  // namespace
 
-Table read_csv(const std::string& path) {
-  const std::string text = read_text(path);
-  std::string_view content = text;
-  if (content.substr(0, 3) == "\xEF\xBB\xBF") {
-    content.remove_prefix(3);  // byte order mark of some spreadsheets
-  }
-  CsvEvents events(path);
-  CsvParser().run(content, events);
-  return events.table();
+Table read_csv(const std::string& path) { return parsed(path, CsvEvents(path)); }
+
+Table read_headerless_csv(const std::string& path, const std::vector<std::string>& names) {
+  return parsed(path, CsvEvents(path, names));
 }
 
 void write_csv(const Table& table, const std::string& path, int digits) {

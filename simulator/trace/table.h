@@ -25,6 +25,11 @@ struct Table {
 /// infinity, no rows. Messages name file, line and column.
 Table read_csv(const std::string& path);
 
+/// Rows of numbers without a header, separated by commas, under the given names; units are empty: the trial
+/// states them. Empty lines before the first row are skipped. Any file name extension. Refuses what read_csv
+/// refuses.
+Table read_headerless_csv(const std::string& path, const std::vector<std::string>& names);
+
 /// MATLAB v5 or v7.3 (matio): every real vector or matrix variable; a matrix gives columns name_1, name_2 ...
 /// Kept are those of the longest length (two rows at least); scalars, shorter vectors, texts, cells,
 /// structures, complex and logical arrays are skipped. Units are empty: the trial states them. NaN and

@@ -93,7 +93,7 @@ TEST_F(Json, CheckOfATrial) {
 
 TEST_F(Json, Compare) {
   const json compared = from({"compare", "trials/steps", "trials/swing"});
-  EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows"));
+  EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows", "phases"));
   ASSERT_EQ(compared["channels"].size(), 4U);
   EXPECT_THAT(keys(compared["channels"][0]),
               UnorderedElementsAre("trial", "name", "unit", "role", "rms", "floor", "ratio"));
@@ -101,6 +101,15 @@ TEST_F(Json, Compare) {
   EXPECT_THAT(keys(compared["windows"][0]),
               UnorderedElementsAre("trial", "from", "to", "ratio", "worst_channel"));
   EXPECT_GE(compared["windows"][0]["ratio"], compared["windows"][7]["ratio"]);
+  EXPECT_THAT(keys(compared["phases"][0]), UnorderedElementsAre("trial", "channel", "unit", "group", "phase",
+                                                                "share", "rms", "mean", "ratio"));
+  double share = 0.0;
+  for (const json& one : compared["phases"]) {
+    const bool mine = one["trial"] == "steps" && one["group"] == "speed" &&
+                      one["channel"] == compared["phases"][0]["channel"];
+    share += mine ? one["share"].get<double>() : 0.0;
+  }
+  EXPECT_NEAR(share, 1.0, 1e-9);
 }
 
 TEST_F(Json, Simulate) {

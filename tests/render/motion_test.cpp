@@ -30,7 +30,7 @@ class MotionTest : public testing::Test {
     }
   }
   /// What `plumbline hop` would write of x_.
-  Table trace() const {
+  Table trace() {
     Table table;
     table.file = "trace.csv";
     table.columns.push_back({"t", "s", Eigen::Vector3d(0.0, 0.001, 0.002)});

@@ -22,7 +22,7 @@ class PositionsFromSensors : public testing::Test {
       x_[i] = 0.1 * (i % 5) - 0.17;
     }
   }
-  Eigen::VectorXd readings() const {
+  Eigen::VectorXd readings() {
     Eigen::VectorXd y(plant_.sensors());
     plant_.outputs(x_.data(), y.data());
     return y;

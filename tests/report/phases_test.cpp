@@ -1,5 +1,5 @@
 // Phases share out all samples of a trial, by rules that a person can check.
-#include "validation/report/phases.h"
+#include "validation/compare/phases.h"
 
 #include <gmock/gmock.h>
 
@@ -44,6 +44,23 @@ TEST(Phases, EachGroupHoldsEverySampleOnce) {
     EXPECT_EQ(samples.size(), 3000U) << group;
     EXPECT_EQ(std::set<Eigen::Index>(samples.begin(), samples.end()).size(), 3000U) << group;
   }
+}
+
+TEST(Phases, AStanceBetweenFlightsHasTenths) {
+  Trial trial = sine_trial();
+  SwitchRecord foot{"foot", "", Eigen::VectorXd::Zero(3000)};
+  foot.values.segment(500, 1000).setOnes();   // a whole stance
+  foot.values.segment(2000, 1000).setOnes();  // one that the recording cuts off
+  trial.switches.push_back(foot);
+  trial.contact_events = contact_events(trial);
+  const PhaseTable table = phases_of(trial, trial.measured[0]);
+  for (const auto& [name, first] : {std::pair("0-10 %", 500), std::pair("50-60 %", 1000)}) {
+    const std::vector<Eigen::Index>& members = table.members[place_of(table, name)];
+    ASSERT_EQ(members.size(), 100U) << name;
+    EXPECT_EQ(members.front(), first);
+    EXPECT_EQ(members.back(), first + 99);
+  }
+  EXPECT_EQ(table.members[place_of(table, "else")].size(), 2000U);
 }
 
 TEST(Phases, ASineGoesForwardAndBackwardAndTurns) {

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "validation/cli/commands.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
@@ -11,7 +13,40 @@ namespace {
 
 using validation::ChannelError;
 using validation::Comparison;
+using validation::PhaseError;
 using validation::WindowError;
+
+/// The channel of a trial that is farthest from its floor.
+std::string worst_channel(const Comparison& comparison, const std::string& trial) {
+  const ChannelError* worst = nullptr;
+  for (const ChannelError& c : comparison.channels) {
+    const bool has_phases = std::any_of(comparison.phases.begin(), comparison.phases.end(),
+                                        [&](const PhaseError& p) { return p.channel == c.name; });
+    if (c.trial == trial && has_phases && (worst == nullptr || c.ratio > worst->ratio)) {
+      worst = &c;
+    }
+  }
+  return worst == nullptr ? "" : worst->name;
+}
+
+/// One line for each group of phases, of each trial's worst channel.
+void print_phases(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  for (const PhaseError& p : comparison.phases) {
+    if (p.channel != worst_channel(comparison, p.trial)) {
+      continue;
+    }
+    const std::string one = fmt::format("{} {:.2f}", p.phase.name, p.ratio);
+    const bool same = !rows.empty() && rows.back()[0] == p.trial && rows.back()[2] == p.phase.group;
+    if (same) {
+      rows.back()[3] += ", " + one;
+    } else {
+      rows.push_back({p.trial, p.channel, p.phase.group, one});
+    }
+  }
+  fmt::print("\nWhere in the motion, for the worst channel of each trial (rms/floor by phase):\n\n");
+  print_table({"trial", "channel", "phases by", "rms/floor"}, rows);
+}
 
 void print(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows;
@@ -29,6 +64,7 @@ void print(const Comparison& comparison) {
                     w.worst_channel});
   }
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
+  print_phases(comparison);
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
       comparison.scores.train, comparison.scores.held_out);

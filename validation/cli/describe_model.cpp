@@ -15,8 +15,13 @@ using model::Quantity;
 using nlohmann::json;
 using Rows = std::vector<std::vector<std::string>>;
 
-bool sensor_is_angular(const Model& model, const std::string& sensor) {
-  return model.place_is_angular(effects::Place::sensor, sensor);
+/// What a force plate or another sensor measures.
+std::string measured_by(const Model& model, const model::Sensor& sensor) {
+  std::string feet;
+  for (const int foot : sensor.feet) {
+    feet += (feet.empty() ? "vertical force on " : ", ") + model.feet[static_cast<std::size_t>(foot)].name;
+  }
+  return sensor.is_force_plate() ? feet : sensor.measures;
 }
 
 std::string kind_of(bool angular) { return angular ? "rotary" : "linear"; }
@@ -92,10 +97,10 @@ void print_effects(const Model& model) {
 void print_sensors(const Model& model) {
   Rows rows;
   for (const model::Sensor& sensor : model.sensors) {
-    const std::string unit = model::position_unit(sensor_is_angular(model, sensor.name));
-    rows.push_back({sensor.name, sensor.measures, fmt::format("{:.4g} {}", sensor.resolution, unit),
-                    fmt::format("{:.3g} {}", sensor.noise, unit),
-                    fmt::format("{:.3g} {}", sensor.floor(), unit)});
+    const std::string unit = model::reading_unit(model, sensor.name);
+    rows.push_back(
+        {sensor.name, measured_by(model, sensor), fmt::format("{:.4g} {}", sensor.resolution, unit),
+         fmt::format("{:.3g} {}", sensor.noise, unit), fmt::format("{:.3g} {}", sensor.floor(), unit)});
   }
   fmt::print("\nSensors:\n\n");
   for (const model::ContactSwitch& one : model.switches) {

@@ -14,10 +14,7 @@ using model::Model;
 using nlohmann::json;
 using validation::Trial;
 
-/// rad or m
-std::string reading_unit(const Model& model, const std::string& sensor) {
-  return model::position_unit(model.place_is_angular(effects::Place::sensor, sensor));
-}
+using model::reading_unit;
 
 double rms(const Eigen::VectorXd& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/kinds.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -27,7 +29,7 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
       ChannelError error;
       error.trial = trial.name;
       error.name = sensor.name;
-      error.unit = model.place_is_angular(effects::Place::sensor, sensor.name) ? "rad" : "m";
+      error.unit = model::reading_unit(model, sensor.name);
       error.role = trial.role;
       error.floor = sensor.floor();
       error.ratio = std::sqrt(sum[static_cast<Eigen::Index>(c)] / std::max(samples, 1.0));
@@ -68,12 +70,15 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
 }  // namespace
 
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores};
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}};
 }
 
 Comparison compare(const model::Model& model, const Data& data) {
   PredictorPool pool(model, data);
-  return compare(model, data, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4}));
+  const Estimate estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  Comparison comparison = compare(model, data, estimate);
+  comparison.phases = phase_errors(pool, {}, estimate);
+  return comparison;
 }
 
 }  // namespace plumbline::validation

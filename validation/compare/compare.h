@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/predict/estimate.h"
+#include "validation/compare/phase_errors.h"
 
 namespace plumbline::validation {
 
@@ -27,6 +27,7 @@ struct Comparison {
   std::vector<ChannelError> channels;
   std::vector<WindowError> windows;  ///< worst first
   Scores scores;
+  std::vector<PhaseError> phases;  ///< of compare(model, data) only
 };
 
 /// Predicts every window from its own estimated initial state with the model as it is (nothing fitted).

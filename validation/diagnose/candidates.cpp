@@ -50,6 +50,18 @@ double driving_force(model::Plant& plant, const Trial& trial, double inertia) {
   return std::sqrt(square);
 }
 
+/// Root mean square of a trial's largest force plate: what the legs carry.
+double carried_force(const model::Model& model, const Trial& trial) {
+  double force = 0.0;
+  for (const Measured& channel : trial.measured) {
+    if (model.find_sensor(channel.sensor)->is_force_plate()) {
+      force = std::max(force,
+                       std::sqrt(channel.values.squaredNorm() / static_cast<double>(channel.values.size())));
+    }
+  }
+  return force;
+}
+
 effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
   const Data& data = pool_.data();
   const model::Model& model = pool_.model();
@@ -68,8 +80,15 @@ effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
       model::Plant& plant = predictor.plant();
       Eigen::VectorXd xdot(plant.states());
       const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
+      const bool unseen = !trial.start.empty();  // by the sensors: then as predicted
+      if (unseen) {
+        predictor.predict(window, estimate_.x0[static_cast<std::size_t>(w)]);
+      }
+      const Eigen::MatrixXd predicted = unseen ? predictor.predicted_states() : Eigen::MatrixXd();
       for (Eigen::Index k = 0; k + 8 < window.count; k += std::max<Eigen::Index>(1, window.count / 8)) {
-        const Eigen::VectorXd x = predictor.initial_state({window.trial, window.first + k, window.count - k});
+        const Eigen::VectorXd x =
+            unseen ? Eigen::VectorXd(predicted.col(k))
+                   : predictor.initial_state({window.trial, window.first + k, window.count - k});
         if (k == 0) {
           plant.rate(x.data(), idle.data(), xdot.data());
         }
@@ -84,7 +103,8 @@ effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
         count += 1.0;
       }
       scales.inertia = std::max(scales.inertia, plant.inertia_of(seen));
-      scales.force = std::max(scales.force, driving_force(plant, trial, plant.inertia_of(seen)));
+      scales.force = std::max(
+          {scales.force, driving_force(plant, trial, plant.inertia_of(seen)), carried_force(model, trial)});
     });
     scales.period = trial.period;
   }

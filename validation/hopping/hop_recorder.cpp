@@ -1,12 +1,13 @@
 #include "validation/hopping/hop_recorder.h"
 
+#include "simulator/model/kinds.h"
+
 namespace plumbline::validation {
 
 HopRecorder::HopRecorder(const model::Model& model) {
   columns_.push_back({"t", "s", {}});
   for (const model::Sensor& sensor : model.sensors) {
-    const bool angular = model.place_is_angular(effects::Place::sensor, sensor.name);
-    columns_.push_back({"q_" + sensor.name, angular ? "rad" : "m", {}});
+    columns_.push_back({model::reading_column(sensor), model::reading_unit(model, sensor.name), {}});
   }
   for (const model::Motor& motor : model.motors) {
     columns_.push_back({"u_" + motor.name, motor.command_unit, {}});

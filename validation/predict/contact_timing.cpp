@@ -52,9 +52,9 @@ void Predictor::stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Ind
   }
 }
 
-Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double time) {
+Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double time, double farthest) {
   Crossing nearest;
-  nearest.time = time + kFarthest;
+  nearest.time = time + farthest;
   model::FootDepth before = plant_.foot_depth(foot, states_.col(0).data());
   for (Eigen::Index n = 0; n + 1 < nodes_; ++n) {
     const model::FootDepth behind = plant_.foot_depth(foot, states_.col(n + 1).data());
@@ -80,7 +80,8 @@ std::vector<Predictor::Crossing> Predictor::crossings_of(const Window& window) {
       all.push_back({});
       all.back().time = event.time - trial_.time[window.first] + kFarthest;
     } else {
-      all.push_back(nearest_crossing(foot, event.touchdown, event.time - trial_.time[window.first]));
+      all.push_back(
+          nearest_crossing(foot, event.touchdown, event.time - trial_.time[window.first], kFarthest));
     }
   }
   return all;

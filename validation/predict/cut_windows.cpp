@@ -103,6 +103,17 @@ bool on_the_ground(const Trial& trial, const Window& window) {
   });
 }
 
+/// A start that no sensor shows is known in flight only: windows of such a trial begin in one.
+void keep_those_from_flight(const Trial& trial, std::vector<Window>& windows, std::ptrdiff_t begin) {
+  const auto from_flight = [&](const Window& window) { return flight_at(trial, window.first).has_value(); };
+  const auto end = std::stable_partition(windows.begin() + begin, windows.end(), from_flight);
+  if (end == windows.begin() + begin) {
+    throw InputError({trial.file, 0, "start"}, "no flight in the recording",
+                     "one between a lift-off and a touchdown: only there the start of a window is known");
+  }
+  windows.erase(end, windows.end());
+}
+
 }  // namespace
 
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
@@ -123,6 +134,9 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
         windows.push_back({static_cast<int>(t), first, cuts[c] + span * (p + 1) / parts - first, {}});
         find_events(trial, windows.back());
       }
+    }
+    if (!trial.start.empty()) {
+      keep_those_from_flight(trial, windows, begin);
     }
     // Stance first, then flight: whoever takes every second window then takes some of both.
     std::stable_partition(windows.begin() + begin, windows.end(),

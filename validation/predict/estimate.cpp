@@ -30,7 +30,7 @@ class WindowCost : public ceres::CostFunction {
     pool_.with(window_, parameters_, fixed_, [&](Predictor& predictor) {
       const Window& w = pool_.data().windows[static_cast<std::size_t>(window_)];
       expected_ = predictor.initial_state(w);
-      spread_ = predictor.initial_spread(w);
+      spread_ = predictor.spread_around(expected_);
       rows_ = predictor.rows(w);
     });
     if (!parameters_.empty() && units_.size() > 0) {

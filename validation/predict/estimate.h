@@ -65,8 +65,8 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
 struct Reduced {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
-  double sse = 0.0;         ///< after the initial state has moved
-  double raw_sse = 0.0;     ///< before
+  double sse = 0.0;      ///< after the initial state has moved; with how far it is from where it is expected
+  double raw_sse = 0.0;  ///< before
   Eigen::VectorXd square;   ///< sse by channel
   Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta

@@ -1,6 +1,7 @@
 // Gauss-Newton on the reduced equations of all windows.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
@@ -33,6 +34,11 @@ Point moved(const Point& from, const Step& step, const std::vector<FreeParameter
   return to;
 }
 
+/// A window that runs through touchdown and lift-off is not linear in where it begins.
+bool through_contact(const Data& data, std::size_t w) {
+  return !data.trials[static_cast<std::size_t>(data.windows[w].trial)].switches.empty();
+}
+
 struct Passes {
   PredictorPool& pool;
   const std::vector<FreeParameter>& parameters;
@@ -41,12 +47,123 @@ struct Passes {
   std::vector<Reduced> reduce_at(const Point& point, const Eigen::VectorXd& units) {
     return reduce(pool, windows, parameters, point.theta, point.x0, units);
   }
+  void shorten(const Point& from, const std::vector<Reduced>& before, const Eigen::VectorXd& units, Point& to,
+               std::vector<Reduced>& after);
+  void settle(const Eigen::VectorXd& units, Point& point, std::vector<Reduced>& reduced);
+  void take_last_step(Point& point, std::vector<Reduced>& reduced);
+  std::vector<int> curved() const;
 };
 
+std::vector<int> Passes::curved() const {
+  std::vector<int> some;
+  std::copy_if(windows.begin(), windows.end(), std::back_inserter(some),
+               [&](int w) { return through_contact(pool.data(), static_cast<std::size_t>(w)); });
+  return some;
+}
+
+/// Steps of the initial states alone, in windows that are not linear in them and whose next step still
+/// promises much. The parameters' step is then that of windows that are at their best.
+void Passes::settle(const Eigen::VectorXd& units, Point& point, std::vector<Reduced>& reduced) {
+  constexpr int kSteps = 6;
+  constexpr double kMuch = 0.05;
+  constexpr double kShortest = 0.1;
+  std::vector<int> open = curved();
+  std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
+  for (int i = 0; i < kSteps; ++i) {
+    const auto is_settled = [&](int w) {
+      const auto at = static_cast<std::size_t>(w);
+      return reduced[at].raw_sse <= (1.0 + kMuch) * reduced[at].sse || share[at] < kShortest;
+    };
+    open.erase(std::remove_if(open.begin(), open.end(), is_settled), open.end());
+    if (open.empty()) {
+      return;
+    }
+    Point next = point;
+    for (const int w : open) {
+      const auto at = static_cast<std::size_t>(w);
+      next.x0[at] += share[at] * reduced[at].x_shift;
+    }
+    const std::vector<Reduced> now = reduce(pool, open, parameters, point.theta, next.x0, units);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const auto at = static_cast<std::size_t>(open[k]);
+      const bool better = now[k].raw_sse < reduced[at].raw_sse;
+      share[at] *= better ? 1.0 : 0.3;
+      if (better) {
+        reduced[at] = now[k];
+        point.x0[at] = next.x0[at];
+      }
+    }
+  }
+}
+
+/// Halves the steps of initial states that made their windows worse, as a touchdown missed or gained does:
+/// the other windows' steps are none of their business. Where the parameters move too, a window may lose a
+/// little.
+void Passes::shorten(const Point& from, const std::vector<Reduced>& before, const Eigen::VectorXd& units,
+                     Point& to, std::vector<Reduced>& after) {
+  constexpr int kHalvings = 6;
+  const double allowed = parameters.empty() ? 1.0 : 2.0;
+  std::vector<int> worse = curved();
+  Point shorter = to;
+  for (int i = 0; i < kHalvings; ++i) {
+    const auto is_fine = [&](int w) {
+      const auto at = static_cast<std::size_t>(w);
+      return after[at].raw_sse <= allowed * before[at].raw_sse;
+    };
+    worse.erase(std::remove_if(worse.begin(), worse.end(), is_fine), worse.end());
+    if (worse.empty()) {
+      return;
+    }
+    for (const int w : worse) {
+      const auto at = static_cast<std::size_t>(w);
+      shorter.x0[at] = 0.5 * (shorter.x0[at] + from.x0[at]);
+    }
+    const std::vector<Reduced> now = reduce(pool, worse, parameters, to.theta, shorter.x0, units);
+    for (std::size_t k = 0; k < worse.size(); ++k) {
+      const auto at = static_cast<std::size_t>(worse[k]);
+      if (!(after[at].raw_sse <= now[k].raw_sse)) {
+        after[at] = now[k];
+        to.x0[at] = shorter.x0[at];
+      }
+    }
+  }
+}
+
+/// The equations at hand promise one more step of every initial state. Where it would still matter it is
+/// tried: taken when the window is the better for it, and its residuals are those that are there, not the
+/// promised.
+void Passes::take_last_step(Point& point, std::vector<Reduced>& reduced) {
+  constexpr double kMatters = 1e-3;
+  parallel_for(static_cast<int>(reduced.size()), pool.data().threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    Reduced& one = reduced[i];
+    const Eigen::VectorXd there = point.x0[i] + one.x_shift;
+    if (!through_contact(pool.data(), i) || one.raw_sse <= (1.0 + kMatters) * one.sse) {
+      point.x0[i] = there;
+      return;
+    }
+    pool.with(w, parameters, point.theta, [&](Predictor& predictor) {
+      const Window& window = pool.data().windows[i];
+      Eigen::VectorXd r = predictor.residual(window, there);
+      one.sse = r.squaredNorm() + predictor.anchor(window, there, r).r.squaredNorm();
+      if (one.sse < one.raw_sse) {
+        point.x0[i] = there;
+      } else {
+        r = predictor.residual(window, point.x0[i]);
+        one.sse = one.raw_sse;
+      }
+      one.square = predictor.squares(window, r);
+    });
+  });
+}
+
+/// Squared residuals of the train windows, with what their initial states' next step promises; through
+/// contact, where a promise is not to be trusted, as they are.
 double train_cost(const Data& data, const std::vector<Reduced>& reduced) {
   double cost = 0.0;
   for (std::size_t w = 0; w < reduced.size(); ++w) {
-    cost += data.role(w) == Role::train ? reduced[w].sse : 0.0;
+    const double one = through_contact(data, w) ? reduced[w].raw_sse : reduced[w].sse;
+    cost += data.role(w) == Role::train ? one : 0.0;
   }
   return cost;
 }
@@ -127,7 +244,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
     const auto i = static_cast<std::size_t>(w);
     if (here.x0[i].size() == 0) {
       pool.with(w, parameters, start,
-                [&](Predictor& predictor) { here.x0[i] = predictor.initial_state(data.windows[i]); });
+                [&](Predictor& predictor) { here.x0[i] = predictor.search_start(data.windows[i]); });
     }
   });
   const Eigen::VectorXd units = search_units(parameters, start);
@@ -135,6 +252,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   if (!is_finite(reduced)) {
     throw std::runtime_error("the prediction is not finite at the start values");
   }
+  passes.settle(units, here, reduced);
   Estimate result;
   Damping damping;
   for (result.iterations = 1; result.iterations < options.iterations; ++result.iterations) {
@@ -147,9 +265,11 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
     }
     bool better = false;
     for (int attempt = 0; attempt < kAttempts && !better; ++attempt) {
-      const Point there = moved(here, step_of(sum, reduced, bounds, damping.value()), parameters, units);
+      Point there = moved(here, step_of(sum, reduced, bounds, damping.value()), parameters, units);
       try {
         std::vector<Reduced> next = passes.reduce_at(there, units);
+        passes.shorten(here, reduced, units, there, next);
+        passes.settle(units, there, next);
         const double cost = train_cost(data, next) + prior(parameters, units, there.theta).square;
         if (is_finite(next) &&
             cost < (train_cost(data, reduced) + known.square) * (1.0 + options.tolerance)) {
@@ -168,11 +288,11 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
       break;
     }
   }
+  passes.take_last_step(here, reduced);
   result.theta = here.theta;
   result.x0 = here.x0;
-  for (std::size_t w = 0; w < reduced.size(); ++w) {
-    result.x0[w] += reduced[w].x_shift;
-    result.square.push_back(reduced[w].square);
+  for (const Reduced& one : reduced) {
+    result.square.push_back(one.square);
   }
   result.scores = score(data, result.square);
   result.predicted = prediction(data, reduced, parameters, here.theta, units);

@@ -86,8 +86,8 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
       const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
       const Eigen::Index row = k * channels() + c;
       out.Jx.row(row).noalias() = C.row(s) * S.topLeftCorner(nz, nx);
-      out.Jx.row(row) /= floors_[c];
       out.Jp.row(row).noalias() = C.row(s) * S.topRightCorner(nz, np);
+      out.Jx.row(row) /= floors_[c];
       out.Jp.row(row) += D.row(s);
       out.Jp.row(row) /= floors_[c];
     }
@@ -149,6 +149,23 @@ Linearisation Predictor::linearise_tied(const Window& window, const Eigen::Vecto
   return out;
 }
 
+namespace {
+
+/// May a parameter have this value in a plant that was built with another? A law with states of its own must
+/// not become null, or cease to be: its states would come or go.
+bool can_be_set(const model::Plant& plant, model::ParameterId id, double value) {
+  const effects::Law& law = *plant.model().effects[static_cast<std::size_t>(id.effect)].law;
+  effects::Values values;
+  for (int p = 0; p < static_cast<int>(law.declaration().parameters.size()); ++p) {
+    values.push_back(plant.value({id.effect, p}));
+  }
+  const bool was_null = law.is_null(values.data());
+  values[static_cast<std::size_t>(id.parameter)] = value;
+  return law.state_count() == 0 || law.is_null(values.data()) == was_null;
+}
+
+}  // namespace
+
 // Central differences for parameters, whose influence may be small beside the integrator's error; one-sided
 // ones for states. Steps are small against a contact's depth (1 mm) and long against that error.
 Linearisation Predictor::linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
@@ -177,8 +194,14 @@ Linearisation Predictor::linearise_by_differences(const Window& window, const Ei
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     const double here = plant_.value(parameter.id);
     const double step = kShareOfParameter * (here != 0.0 ? std::abs(here) : parameter.typical);
-    const double up = std::min(here + step, parameter.upper);
-    const double down = std::max(here - step, parameter.lower);
+    double up = std::min(here + step, parameter.upper);
+    double down = std::max(here - step, parameter.lower);
+    up = can_be_set(plant_, parameter.id, up) ? up : here;
+    down = can_be_set(plant_, parameter.id, down) ? down : here;
+    if (!(up > down)) {
+      out.Jp.col(p).setZero();
+      continue;
+    }
     parameter.set(plant_, up);
     const Eigen::VectorXd above = residual(window, x0);
     parameter.set(plant_, down);

@@ -1,5 +1,6 @@
 // The points at which a predicted window is known: its samples, and more of them near the ground.
 #include <algorithm>
+#include <cmath>
 
 #include "validation/predict/windows.h"
 
@@ -44,7 +45,8 @@ int Predictor::pieces_at(Eigen::Index node) {
   for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
     const model::FootDepth foot = plant_.foot_depth(static_cast<int>(f), states_.col(node).data());
     if (foot.depth > 0.0 || foot.depth + 2.0 * trial_.period * foot.rate > 0.0) {
-      return std::max(1, options_.contact_pieces);
+      constexpr double kRounding = 1e-9;
+      return std::max(1, static_cast<int>(std::ceil(trial_.period / options_.contact_piece - kRounding)));
     }
   }
   return 1;

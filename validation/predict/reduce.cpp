@@ -19,16 +19,19 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       const Eigen::VectorXd& given = x0[static_cast<std::size_t>(w)];
       const Eigen::VectorXd start = given.size() > 0 ? given : predictor.initial_state(window);
       const Linearisation lin = predictor.linearise(window, start, parameters);
+      const Predictor::Anchor anchor = predictor.anchor(window, start, lin.r);
       const Eigen::Index nx = start.size();
       const Eigen::Index rows = lin.r.size();
       Eigen::MatrixXd X(rows + nx, nx);
       X.topRows(rows) = lin.Jx;
-      X.bottomRows(nx) = predictor.initial_spread(window).cwiseInverse().asDiagonal();
+      X.bottomRows(nx) = anchor.slope.asDiagonal();
+      Eigen::VectorXd r(rows + nx);  // of the window, then of what is known of its start
+      r << lin.r, anchor.r;
       const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
       const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
-      const Eigen::VectorXd Qtr = Q.topRows(rows).transpose() * lin.r;
+      const Eigen::VectorXd Qtr = Q.transpose() * r;
       const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
-      out.raw_sse = lin.r.squaredNorm();
+      out.raw_sse = r.squaredNorm();
       out.sse = out.raw_sse - Qtr.squaredNorm();
       out.square = predictor.squares(window, lin.r - Q.topRows(rows) * Qtr);
       out.x_shift = R.solve(Qtr);

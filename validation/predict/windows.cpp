@@ -11,18 +11,6 @@
 #include "validation/predict/jump_ode.h"
 
 namespace plumbline::validation {
-namespace {
-
-std::vector<model::Observation> observations_of(const model::Plant& plant, const Trial& trial) {
-  std::vector<model::Observation> channels;
-  channels.reserve(trial.measured.size());
-  for (const Measured& channel : trial.measured) {
-    channels.push_back(model::observe_sensor(plant, plant.model().sensor_index(channel.sensor)));
-  }
-  return channels;
-}
-
-}  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
   plant.set_value(id, value);
@@ -35,12 +23,18 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     : trial_(trial),
       options_(options),
       plant_(model, trial.locks),
-      from_channels_(plant_, observations_of(plant_, trial)) {
+      from_channels_(plant_, start_observations(plant_, trial)) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     const int s = model.sensor_index(trial.measured[c].sensor);
     sensor_of_channel_.push_back(s);
-    floors_[static_cast<Eigen::Index>(c)] = model.sensors[static_cast<std::size_t>(s)].floor();
+    const model::Sensor& sensor = model.sensors[static_cast<std::size_t>(s)];
+    floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
+    if (sensor.is_force_plate()) {
+      options_.differences = true;  // a force jumps where the motion bends: see PredictOptions
+    } else {
+      position_channels_.push_back(static_cast<Eigen::Index>(c));
+    }
   }
   for (const SwitchRecord& record : trial.switches) {
     const model::ContactSwitch* known = model.find_switch(record.name);
@@ -57,45 +51,12 @@ void Predictor::refresh_commands() {
   commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, plant_.delays());
 }
 
-// Value and slope of each channel at the window's first sample, from a quadratic over 25 samples around it
-// (fewer at the trial's ends, and at touchdown and lift-off): long against the quantisation, short against
-// the motion.
-Eigen::MatrixXd Predictor::local_polynomial(const Window& window) const {
-  const Eigen::Index reach = 12;
-  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
-  Eigen::Index to = std::min(trial_.samples() - 1, window.first + reach);
-  stay_in_phase(window.first, from, to);
-  const Eigen::Index n = to - from + 1;
-  Eigen::MatrixXd V(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double s = static_cast<double>(from + i - window.first);
-    V.row(i) << 1.0, s, s * s;
-  }
-  Eigen::MatrixXd Y(n, channels());
-  for (int c = 0; c < channels(); ++c) {
-    Y.col(c) = trial_.measured[static_cast<std::size_t>(c)].values.segment(from, n);
-  }
-  return V.colPivHouseholderQr().solve(Y);
-}
-
-Eigen::VectorXd Predictor::initial_state(const Window& window) {
-  const Eigen::MatrixXd local = local_polynomial(window);
-  const Eigen::Index nz = plant_.positions();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
-  x.head(nz) = from_channels_.positions(local.row(0).transpose());
-  x.segment(nz, nz) = from_channels_.rates(local.row(1).transpose() / trial_.period);
-  Eigen::VectorXd command(plant_.motors());
-  commands_->at(window.first, 0, command.data());
-  plant_.settle(command.data(), x.data());
-  return x;
-}
-
 Eigen::MatrixXd Predictor::measured_positions() const {
   Eigen::MatrixXd y(channels(), trial_.samples());
   for (int c = 0; c < channels(); ++c) {
     y.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
   }
-  return from_channels_.positions(y);
+  return from_channels_.positions(with_starts(y, false));
 }
 
 void Predictor::measure_motion() {
@@ -109,7 +70,7 @@ void Predictor::measure_motion() {
   }
   motion_.resize(2 * nz, n);
   motion_.topRows(nz) = measured_positions();
-  motion_.bottomRows(nz) = from_channels_.rates(rates);
+  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true));
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
@@ -150,23 +111,6 @@ Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector
     slopes.col(i) = (there - here) / steps[i];
   }
   return slopes;
-}
-
-// Wide: the data decide; only directions that no sensor sees are held by it.
-Eigen::VectorXd Predictor::initial_spread(const Window& window) {
-  const Eigen::VectorXd x = initial_state(window);
-  Eigen::VectorXd spread = Eigen::VectorXd::Ones(x.size());
-  const Eigen::Index nz = plant_.positions();
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    spread[i] = i < nz ? 1.0 : std::max(1.0, 10.0 * std::abs(x[i]));
-  }
-  for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
-    spread[i] = 1.0 + std::abs(x[i]);
-  }
-  for (const int i : plant_.force_states()) {
-    spread[i] = 1e-9 * spread[i];  // not free: carried along the measured motion
-  }
-  return spread;
 }
 
 // Near the ground a sample is run in pieces: its force changes much within one. Elsewhere a piece is a
@@ -213,12 +157,28 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   evaluations_ += integrator.summary().rate_evaluations;
 }
 
+void Predictor::average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y) {
+  if (!plates.any() || sample == 0) {
+    return;
+  }
+  const Eigen::Index first = node_of(sample - 1);
+  plates.begin(0.0, states_.col(first).data());
+  double time = 0.0;
+  for (Eigen::Index n = first; n < node_of(sample); ++n) {
+    time += length_of(n);
+    plates.add(time, states_.col(n + 1).data());
+  }
+  plates.write(y.data());
+}
+
 Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& x0) {
   run(window, x0);
   Eigen::MatrixXd predicted(window.count, channels());
   Eigen::VectorXd y(plant_.sensors());
+  integrate::PlateMeans plates(plant_);
   for (Eigen::Index k = 0; k < window.count; ++k) {
     plant_.outputs(states_.col(node_of(k)).data(), y.data());
+    average_plates(k, plates, y);
     for (int c = 0; c < channels(); ++c) {
       predicted(k, c) = y[sensor_of_channel_[static_cast<std::size_t>(c)]];
     }

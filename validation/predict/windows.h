@@ -9,6 +9,7 @@
 
 #include "simulator/integrate/held_commands.h"
 #include "simulator/integrate/integrator.h"
+#include "simulator/integrate/plate_means.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/positions_from.h"
 #include "validation/trial/trial.h"
@@ -37,17 +38,19 @@ struct PredictOptions {
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
   /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
   integrate::Method method = integrate::Method::explicit_rk;
-  /// Derivatives by differences of whole predictions: slower, but right where a window runs through touchdown
-  /// and lift-off, and for the parameters of the ground.
+  /// Derivatives by differences of whole predictions: slower, but right wherever a touchdown is sharper than
+  /// the pieces of a sample. Always where a force plate was measured, whose force is all in the touchdown.
   bool differences = false;
-  int contact_pieces = 4;  ///< of a sample in which a foot is in the ground or meets it
-  int refresh = 8;         ///< samples between refreshes of the rigid linearisation
+  double contact_piece =
+      2.5e-4;       ///< s: longest piece of a sample in which a foot is in the ground or meets it
+  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
 /// half a window joins its neighbour. With contact switches it is cut in each flight, kTail after lift-off
-/// and kLead before touchdown, and its windows come in the order stance, flight. Throws InputError when a
-/// trial has fewer samples than one window.
+/// and kLead before touchdown, and its windows come in the order stance, flight. Of a trial with a start only
+/// windows that begin in a flight are kept. Throws InputError when a trial has fewer samples than one window,
+/// or a start and no flight.
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options);
 
 /// One parameter that may move.
@@ -73,6 +76,9 @@ struct Linearisation {
   Eigen::MatrixXd Jx, Jp;
 };
 
+/// What a trial says of the independent positions: its position sensors, then its start.
+std::vector<model::Observation> start_observations(const model::Plant& plant, const Trial& trial);
+
 /// Predicts windows of one trial with one model. Owns a Plant: one object for each thread.
 class Predictor {
  public:
@@ -84,12 +90,26 @@ class Predictor {
 
   /// State at the window's start from the measurements alone: positions by weighted least squares over the
   /// first samples' local polynomials, unseen stretches zero, actuators settled, bristles relaxed.
-  /// A prediction does not start from these bristles: it carries them along the measured motion up to the
-  /// window with the parameters of the moment. Free in each window they would be a force of their own, and a
-  /// friction law would explain whatever is constant over a window.
+  /// What no sensor shows is where Trial::start says, at rest; in a flight that contact switches show it
+  /// falls freely from there, at the height at which the foot touches down when the switch says. A prediction
+  /// does not start from these bristles: it carries them along the measured motion up to the window with the
+  /// parameters of the moment. Free in each window they would be a force of their own, and a friction law
+  /// would explain whatever is constant over a window.
   Eigen::VectorXd initial_state(const Window& window);
-  /// One standard deviation within which the initial state is expected around initial_state().
-  Eigen::VectorXd initial_spread(const Window& window);
+  /// Where to begin the search of the initial state: initial_state(), and where a plate shows the touchdown
+  /// the best of its neighbours that land up to kEarlier sooner or later. An impact lasts less than a sample
+  /// of a plate, and what a sample shows of it changes within a tenth of that.
+  Eigen::VectorXd search_start(const Window& window);
+  /// One standard deviation within which the initial state is expected around initial_state(), x.
+  Eigen::VectorXd spread_around(const Eigen::VectorXd& x) const;
+  /// How far x0 is from initial_state(), in units of its spread, and the slope of that: behind the window's
+  /// residual r as further residuals. Where the trial's start is what is known, it counts against the model's
+  /// error as against noise: the spread is then one root mean square of r, and no start is moved far to make
+  /// up for physics that the model has not.
+  struct Anchor {
+    Eigen::VectorXd r, slope;  ///< weight (expected - x0), weight
+  };
+  Anchor anchor(const Window& window, const Eigen::VectorXd& x0, const Eigen::VectorXd& r);
 
   /// Predicted channels, count x channels, SI.
   Eigen::MatrixXd predict(const Window& window, const Eigen::VectorXd& x0);
@@ -125,6 +145,7 @@ class Predictor {
   };
 
   void run(const Window& window, const Eigen::VectorXd& x0);
+  void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
   void add_jumps(const std::vector<integrate::Event>& events, double t0, Eigen::Index sample);
   void jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
                    const Eigen::VectorXd& steps, Eigen::MatrixXd& S);
@@ -136,7 +157,7 @@ class Predictor {
   double length_of(Eigen::Index node) const;
   void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
   std::vector<Crossing> crossings_of(const Window& window);
-  Crossing nearest_crossing(int foot, bool touchdown, double time);
+  Crossing nearest_crossing(int foot, bool touchdown, double time, double farthest);
   void timing_residuals(const Window& window, Eigen::VectorXd& r);
   void timing_slopes(const Window& window, const std::vector<Crossing>& crossings, Eigen::Index node,
                      const Eigen::MatrixXd& before, const Eigen::MatrixXd& behind,
@@ -150,6 +171,10 @@ class Predictor {
                   const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps, bool refresh,
                   Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
+  Eigen::MatrixXd with_starts(const Eigen::MatrixXd& channels, bool rates) const;
+  void fall_freely(const Window& window, Eigen::VectorXd& x);
+  void touch_down_in_time(const Window& window, int foot, double touchdown, const Eigen::VectorXd& a,
+                          Eigen::VectorXd& x);
   void measure_motion();
   void carry_hidden(const Window& window, double* x);
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
@@ -159,6 +184,7 @@ class Predictor {
   PredictOptions options_;
   model::Plant plant_;
   std::vector<int> sensor_of_channel_;
+  std::vector<Eigen::Index> position_channels_;  // those that are no force plates
   Eigen::VectorXd floors_;
   model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;

@@ -61,8 +61,7 @@ Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
   trace.columns.push_back({"t", "s", run.time});
   for (std::size_t s = 0; s < model.sensors.size(); ++s) {
     const std::string& name = model.sensors[s].name;
-    trace.columns.push_back({"q_" + name,
-                             model::position_unit(model.place_is_angular(effects::Place::sensor, name)),
+    trace.columns.push_back({model::reading_column(model.sensors[s]), model::reading_unit(model, name),
                              run.outputs.row(static_cast<Eigen::Index>(s)).transpose()});
   }
   for (std::size_t m = 0; m < model.motors.size(); ++m) {
@@ -114,8 +113,7 @@ std::vector<ReplayError> errors_of(const model::Model& model, const Trial& trial
   for (const Measured& channel : trial.measured) {
     const int s = model.sensor_index(channel.sensor);
     const Eigen::VectorXd difference = channel.values - run.outputs.row(s).transpose();
-    errors.push_back({channel.sensor,
-                      model::position_unit(model.place_is_angular(effects::Place::sensor, channel.sensor)),
+    errors.push_back({channel.sensor, model::reading_unit(model, channel.sensor),
                       std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size())),
                       model.sensors[static_cast<std::size_t>(s)].floor()});
   }

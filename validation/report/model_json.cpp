@@ -99,13 +99,12 @@ json inertias_json(const Model& model) {
 json sensors_json(const Model& model) {
   json list = json::array();
   for (const model::Sensor& sensor : model.sensors) {
-    list.push_back(
-        {{"name", sensor.name},
-         {"measures", sensor.measures},
-         {"unit", model::position_unit(model.place_is_angular(effects::Place::sensor, sensor.name))},
-         {"resolution", sensor.resolution},
-         {"noise", sensor.noise},
-         {"floor", sensor.floor()}});
+    list.push_back({{"name", sensor.name},
+                    {"measures", sensor.measures},
+                    {"unit", model::reading_unit(model, sensor.name)},
+                    {"resolution", sensor.resolution},
+                    {"noise", sensor.noise},
+                    {"floor", sensor.floor()}});
   }
   return list;
 }

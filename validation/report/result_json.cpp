@@ -96,6 +96,18 @@ nlohmann::json to_json(const Comparison& comparison) {
                                {"ratio", w.ratio},
                                {"worst_channel", w.worst_channel}});
   }
+  json["phases"] = nlohmann::json::array();
+  for (const PhaseError& p : comparison.phases) {
+    json["phases"].push_back({{"trial", p.trial},
+                              {"channel", p.channel},
+                              {"unit", p.unit},
+                              {"group", p.phase.group},
+                              {"phase", p.phase.name},
+                              {"share", p.share},
+                              {"rms", p.rms},
+                              {"mean", p.mean},
+                              {"ratio", p.ratio}});
+  }
   return json;
 }
 

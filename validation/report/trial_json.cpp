@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "validation/compare/phases.h"
 #include "validation/report/encode.h"
-#include "validation/report/phases.h"
 #include "validation/report/spectrum.h"
 #include "validation/report/traces.h"
 

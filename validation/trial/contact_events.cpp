@@ -53,4 +53,22 @@ std::vector<ContactEvent> contact_events(const Trial& trial, double shortest) {
   return events;
 }
 
+std::optional<Flight> flight_at(const Trial& trial, Eigen::Index sample) {
+  std::vector<bool> down;
+  for (const SwitchRecord& record : trial.switches) {
+    down.push_back(record.values[0] > 0.0);
+  }
+  const ContactEvent* last = nullptr;
+  for (const ContactEvent& event : trial.contact_events) {
+    const bool in_flight = std::find(down.begin(), down.end(), true) == down.end();
+    if (event.sample > sample) {
+      const bool bounded = in_flight && last != nullptr && event.touchdown;
+      return bounded ? std::optional<Flight>({last->time, event.time, event.record}) : std::nullopt;
+    }
+    down[static_cast<std::size_t>(event.record)] = event.touchdown;
+    last = &event;
+  }
+  return std::nullopt;
+}
+
 }  // namespace plumbline::validation

@@ -47,9 +47,15 @@ bool same_numbers(const Trial& a, const Trial& b) {
   return measured.shared > 0 && measured.equal && commanded.equal;
 }
 
+/// Have two trials rows of one data file in common?
+bool share_rows(const Trial& a, const Trial& b) {
+  return same_file(a.data_file, b.data_file) && a.first_row < b.first_row + b.samples() &&
+         b.first_row < a.first_row + a.samples();
+}
+
 void check_pair(const Trial& held_out, const Trial& train) {
   const std::string expected = "other data; what was fitted cannot be held out";
-  if (same_file(held_out.data_file, train.data_file)) {
+  if (share_rows(held_out, train)) {
     throw InputError({held_out.file, 0, "data"}, "the data file of the train trial " + train.file, expected);
   }
   if (same_numbers(held_out, train)) {

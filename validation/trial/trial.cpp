@@ -1,5 +1,6 @@
 #include "validation/trial/trial.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "simulator/trace/number_text.h"
@@ -16,6 +17,40 @@ std::string folder_name(const std::string& trial_file) {
   return fs::weakly_canonical(trial_file, none).parent_path().filename().string();
 }
 
+/// Rows of the data file that lie in a stretch of the recording.
+struct Rows {
+  Eigen::Index first = 0, count = 0;
+};
+
+Rows rows_of(const Section& section, const Eigen::VectorXd& time) {
+  const double* begin = time.data();
+  const double* end = begin + time.size();
+  const double* from = std::lower_bound(begin, end, section.from);
+  const double* to = std::lower_bound(begin, end, section.to);
+  if (from == to || section.to > time[time.size() - 1]) {
+    throw InputError(section.place, number_text(section.from) + " to " + number_text(section.to) + " s",
+                     "a stretch of the recording, which lasts from " + number_text(time[0]) + " to " +
+                         number_text(time[time.size() - 1]) + " s");
+  }
+  return {from - begin, to - from};
+}
+
+Eigen::VectorXd times_of(const TrialFile& file, const Table& table) {
+  if (file.rate == 0.0) {
+    return read_signal(table, file.time).values;
+  }
+  return Eigen::VectorXd::LinSpaced(table.rows(), 0.0, static_cast<double>(table.rows() - 1)) / file.rate;
+}
+
+/// 1 where a force is above the level at which the switch closes, else 0.
+Eigen::VectorXd closed_above(const Eigen::VectorXd& force, double level) {
+  return (force.array() > level).cast<double>();
+}
+
+Eigen::VectorXd without_zero(const Eigen::VectorXd& values, const Rows& empty) {
+  return values.array() - values.segment(empty.first, empty.count).mean();
+}
+
 void check_switch(const Table& table, const ColumnUse& use, const Eigen::VectorXd& values) {
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (values[k] != 0.0 && values[k] != 1.0) {
@@ -28,10 +63,17 @@ void check_switch(const Table& table, const ColumnUse& use, const Eigen::VectorX
 void read_signals(const TrialFile& file, const model::Model& model, const Table& table, Trial& trial) {
   for (const MeasuredUse& use : file.measured) {
     Signal signal = read_signal(table, use.column);
+    if (use.above) {
+      trial.switches.push_back({use.sensor, use.column.name, closed_above(signal.values, *use.above)});
+      continue;
+    }
     if (model.find_switch(use.sensor) != nullptr) {
       check_switch(table, use.column, signal.values);
       trial.switches.push_back({use.sensor, use.column.name, std::move(signal.values)});
       continue;
+    }
+    if (use.zero) {
+      signal.values = without_zero(signal.values, rows_of(*use.zero, trial.time));
     }
     trial.measured.push_back({use.sensor, use.column.name, signal.unit, std::move(signal.values)});
   }
@@ -46,6 +88,31 @@ void read_signals(const TrialFile& file, const model::Model& model, const Table&
       trial.controllers.back().disturbance = read_signal(table, *use.disturbance).values;
     }
   }
+}
+
+void keep(const Rows& rows, Eigen::VectorXd& values) {
+  if (values.size() > 0) {
+    values = Eigen::VectorXd(values.segment(rows.first, rows.count));
+  }
+}
+
+void keep_section(const Section& section, Trial& trial) {
+  const Rows rows = rows_of(section, trial.time);
+  trial.first_row = rows.first;
+  for (Measured& channel : trial.measured) {
+    keep(rows, channel.values);
+  }
+  for (SwitchRecord& record : trial.switches) {
+    keep(rows, record.values);
+  }
+  for (Command& command : trial.commands) {
+    keep(rows, command.values);
+  }
+  for (Controller& controller : trial.controllers) {
+    keep(rows, controller.reference);
+    keep(rows, controller.disturbance);
+  }
+  keep(rows, trial.time);
 }
 
 void check_events(const Trial& trial) {
@@ -69,10 +136,16 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
   trial.locks = file.locks;
   trial.events = file.events;
   trial.data_file = data_path(file, options.data_folder);
-  const Table table = read_table(trial.data_file);
-  trial.time = read_signal(table, file.time).values;
+  trial.start = file.start;
+  const Table table =
+      file.columns.empty() ? read_table(trial.data_file) : read_headerless_csv(trial.data_file, file.columns);
+  trial.time = times_of(file, table);
   trial.period = checked_period(trial.time, table, file.time.name);
   read_signals(file, model, table, trial);
+  if (file.section) {
+    keep_section(*file.section, trial);
+    trial.period = checked_period(trial.time, table, file.time.name);
+  }
   trial.contact_events = contact_events(trial);
   check_events(trial);
   return trial;

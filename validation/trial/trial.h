@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,13 @@ struct ContactEvent {
   bool touchdown = true;
 };
 
+/// A coordinate's position at a start, rad or m.
+struct Start {
+  std::string coordinate;
+  double position = 0.0;
+  double deviation = 0.0;  ///< how well that is known, one standard deviation
+};
+
 struct Trial {
   std::string file;  ///< trial.yaml
   std::string name;  ///< folder name
@@ -69,12 +77,14 @@ struct Trial {
   std::string model_file;  ///< as named in trial.yaml, resolved
   std::string data_file;
   Role role = Role::train;
-  Eigen::VectorXd time;  ///< s, strictly increasing, uniform within 1 %
-  double period = 1e-3;  ///< s
+  Eigen::Index first_row = 0;  ///< of the data file that is the first sample
+  Eigen::VectorXd time;        ///< s, strictly increasing, uniform within 1 %
+  double period = 1e-3;        ///< s
   std::vector<Measured> measured;
   std::vector<Command> commands;
   std::vector<Lock> locks;
   std::vector<Controller> controllers;
+  std::vector<Start> start;    ///< where windows begin with what no sensor shows
   std::vector<double> events;  ///< times at which windows are cut
   std::vector<SwitchRecord> switches;
   std::vector<ContactEvent> contact_events;  ///< of `switches`, in the order of time
@@ -88,6 +98,16 @@ double timing_floor(const Trial& trial);
 /// Where the trial's switches change. A change back within `shortest` seconds is bouncing of the switch or of
 /// the foot, which a small error of the model may miss, and no event: both changes are left out.
 std::vector<ContactEvent> contact_events(const Trial& trial, double shortest = 0.02);
+
+/// A flight between the last lift-off and the touchdown that ends it.
+struct Flight {
+  double lift_off = 0.0, touchdown = 0.0;  ///< s
+  int record = 0;                          ///< index in Trial::switches of the switch that closes
+};
+
+/// The flight in which a sample lies; empty where a switch is closed, and where the recording does not show
+/// both ends of the flight.
+std::optional<Flight> flight_at(const Trial& trial, Eigen::Index sample);
 
 struct TrialOptions {
   std::string data_folder;  ///< replaces the trial's data folder; empty: as the trial says

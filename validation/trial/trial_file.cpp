@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
 #include "validation/trial/physical_number.h"
 
@@ -46,11 +47,13 @@ void check_measured(const YamlNode& node, const std::string& name, const Model& 
   }
 }
 
-ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner) {
+ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
+                      const std::string& further_key = "") {
   if (!node.is_map()) {
     node.refuse("a map {column: ..., unit: " + expected_unit + "}");
   }
-  node.allow_keys({"column", "unit"});
+  node.allow_keys(further_key.empty() ? std::vector<std::string>{"column", "unit"}
+                                      : std::vector<std::string>{"column", "unit", further_key});
   ColumnUse use;
   use.name = node.at("column").text();
   use.place = node.at("column").place();
@@ -71,22 +74,97 @@ std::vector<std::pair<std::string, YamlNode>> at_least_one(const YamlNode& node,
   return entries;
 }
 
+Section read_section(const YamlNode& node) {
+  node.allow_keys({"from", "to"});
+  const Section section{read_physical(node.at("from"), "s", "a time"),
+                        read_physical(node.at("to"), "s", "a time"), node.place()};
+  if (!(section.to > section.from)) {
+    node.at("to").refuse("a time that is not after `from`", "a later one");
+  }
+  return section;
+}
+
+/// A column of its own, or the column of a force and the force above which the switch counts as closed.
+MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
+  const auto above = node.is_map() ? node.find("above") : std::nullopt;
+  if (!above) {
+    return {name, read_column(node, "1", "contact switch " + name)};
+  }
+  MeasuredUse use{name, read_column(node, "N", "the force at contact switch " + name, "above")};
+  use.above = read_physical(*above, "N", "the force at contact switch " + name);
+  return use;
+}
+
+MeasuredUse read_sensor(const YamlNode& node, const std::string& name, const Model& model) {
+  check_measured(node, name, model);
+  const std::string unit = model::reading_unit(model, name);
+  if (!model.find_sensor(name)->is_force_plate()) {
+    return {name, read_column(node, unit, "sensor " + name)};
+  }
+  MeasuredUse use{name, read_column(node, unit, "force plate " + name, "zero")};
+  if (const auto zero = node.find("zero")) {
+    use.zero = read_section(*zero);
+  }
+  return use;
+}
+
 std::vector<MeasuredUse> read_measured(const YamlNode& node, const Model& model) {
   std::vector<MeasuredUse> uses;
-  bool any_position = false;
-  for (const auto& [sensor, entry] : at_least_one(node, "sensor")) {
-    if (model.find_switch(sensor) != nullptr) {
-      uses.push_back({sensor, read_column(entry, "1", "contact switch " + sensor)});
-      continue;
-    }
-    check_measured(entry, sensor, model);
-    any_position = true;
-    uses.push_back({sensor, read_column(entry, sensor_unit(model, sensor), "sensor " + sensor)});
+  bool any_sensor = false;
+  for (const auto& [name, entry] : at_least_one(node, "sensor")) {
+    const bool is_switch = model.find_switch(name) != nullptr;
+    uses.push_back(is_switch ? read_switch(entry, name) : read_sensor(entry, name, model));
+    any_sensor = any_sensor || !is_switch;
   }
-  if (!any_position) {
-    node.refuse("contact switches only", "at least one sensor of a position");
+  if (!any_sensor) {
+    node.refuse("contact switches only", "at least one sensor of a position or force");
   }
   return uses;
+}
+
+std::vector<std::string> read_columns(const YamlNode& node) {
+  std::vector<std::string> names;
+  for (const YamlNode& item : node.items()) {
+    if (std::find(names.begin(), names.end(), item.text()) != names.end()) {
+      item.refuse(quote(item.text()) + " twice", "each column name once");
+    }
+    names.push_back(item.text());
+  }
+  if (names.empty()) {
+    node.refuse("no names", "the names of the data file's columns, in its order");
+  }
+  return names;
+}
+
+void read_time(const YamlNode& node, TrialFile& file) {
+  const auto rate = node.is_map() ? node.find("rate") : std::nullopt;
+  if (!rate) {
+    file.time = read_column(node, "s", "the time");
+    return;
+  }
+  node.allow_keys({"rate"});
+  file.rate = read_physical(*rate, "Hz", "a sample rate");
+  if (!(file.rate > 0.0)) {
+    rate->refuse("a rate that is not above zero", "samples for each second");
+  }
+}
+
+std::vector<Start> read_start(const YamlNode& node, const Model& model) {
+  std::vector<Start> starts;
+  for (const auto& [name, entry] : node.entries()) {
+    const model::Coordinate* coordinate = model.find_coordinate(name);
+    if (coordinate == nullptr) {
+      entry.refuse(quote(name),
+                   "a coordinate of the model" + nearest_names(name, names_of(model.coordinates)));
+    }
+    const model::Quantity value =
+        model::read_quantity(entry, {position_unit(coordinate->angular), {}, false, {}});
+    if (!(value.uncertainty > 0.0)) {
+      entry.refuse("no uncertainty", "how well the start is known, such as `uncertainty: 0.005`");
+    }
+    starts.push_back({name, value.value, value.uncertainty});
+  }
+  return starts;
 }
 
 std::vector<CommandUse> read_commands(const YamlNode& node, const Model& model) {
@@ -132,7 +210,8 @@ ControllerUse read_controller(const YamlNode& node, const Model& model) {
   ControllerUse use;
   use.controller = read_controller_law(node, model);
   const Controller& c = use.controller;
-  use.reference = read_column(node.at("reference"), sensor_unit(model, c.sensor), "sensor " + c.sensor);
+  use.reference =
+      read_column(node.at("reference"), model::reading_unit(model, c.sensor), "sensor " + c.sensor);
   if (const auto disturbance = node.find("disturbance")) {
     use.disturbance = read_column(*disturbance, known_motor(node.at("motor"), c.motor, model).command_unit,
                                   "the command of motor " + c.motor);
@@ -173,7 +252,9 @@ void refuse_second_use(const ColumnUse& use, std::set<std::string>& taken) {
 void check_columns_differ(const TrialFile& file) {
   std::set<std::string> taken{file.time.name};
   for (const MeasuredUse& use : file.measured) {
-    refuse_second_use(use.column, taken);
+    if (!use.above) {  // a switch may be read off a force that is measured, too
+      refuse_second_use(use.column, taken);
+    }
   }
   for (const CommandUse& use : file.commands) {
     refuse_second_use(use.column, taken);
@@ -222,10 +303,6 @@ std::string read_model_path(const YamlNode& root) {
   return (folder / root.at("model").text()).lexically_normal().string();
 }
 
-std::string sensor_unit(const Model& model, const std::string& sensor) {
-  return position_unit(model.place_is_angular(effects::Place::sensor, sensor));
-}
-
 std::string placed_unit(const YamlNode& node, const std::string& name, const Model& model) {
   if (const model::Coordinate* coordinate = model.find_coordinate(name)) {
     return position_unit(coordinate->angular);
@@ -262,7 +339,7 @@ Controller read_controller_law(const YamlNode& node, const Model& model) {
   c.sensor = node.at("sensor").text();
   const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
   check_sensor(node.at("sensor"), c.sensor, model);
-  const std::string position = sensor_unit(model, c.sensor);
+  const std::string position = model::reading_unit(model, c.sensor);
   c.position_gain = model::read_quantity(node.at("position_gain"), {"1/s", {}, false, {}}).value;
   c.velocity_gain =
       model::read_quantity(node.at("velocity_gain"), {command_unit + " s/" + position, {}, false, {}}).value;
@@ -282,8 +359,8 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   file.folder = fs::path(file.path).parent_path().string();
   const YamlNode root = YamlNode::load(file.path);
   check_version(root, "trial/1");
-  root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "time", "commands",
-                   "measured", "locked", "controllers", "events"});
+  root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "columns", "section",
+                   "time", "commands", "measured", "locked", "start", "controllers", "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -292,9 +369,20 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
     file.data_folder_env = variable->text();
     file.data_folder_env_place = variable->place();
   }
-  file.time = read_column(root.at("time"), "s", "the time");
+  if (const auto columns = root.find("columns")) {
+    file.columns = read_columns(*columns);
+  }
+  read_time(root.at("time"), file);
+  if (const auto section = root.find("section")) {
+    file.section = read_section(*section);
+  }
   file.measured = read_measured(root.at("measured"), model);
-  file.commands = read_commands(root.at("commands"), model);
+  if (!model.motors.empty() || root.has("commands")) {
+    file.commands = read_commands(root.at("commands"), model);
+  }
+  if (const auto start = root.find("start")) {
+    file.start = read_start(*start, model);
+  }
   if (const auto locked = root.find("locked")) {
     file.locks = read_locks(*locked, model);
   }

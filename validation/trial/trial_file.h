@@ -20,9 +20,18 @@ struct ColumnUse {
   Place_in_file place;
 };
 
+/// A stretch of the recording, s.
+struct Section {
+  double from = 0.0;
+  double to = 0.0;
+  Place_in_file place;
+};
+
 struct MeasuredUse {
   std::string sensor;
   ColumnUse column;
+  std::optional<Section> zero{};  ///< of a force plate: when nothing stood on it
+  std::optional<double> above{};  ///< of a contact switch that is read off a force: closed above it, N
 };
 struct CommandUse {
   std::string motor;
@@ -43,11 +52,15 @@ struct TrialFile {
   std::string data;             ///< as written
   std::string data_folder_env;  ///< empty: none
   Place_in_file data_folder_env_place;
-  ColumnUse time;
+  std::vector<std::string> columns;  ///< of a data file without header; empty: it has one
+  ColumnUse time;                    ///< without a name where the rate is given
+  double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
+  std::optional<Section> section;    ///< empty: the whole recording
   std::vector<MeasuredUse> measured;
   std::vector<CommandUse> commands;
   std::vector<ControllerUse> controllers;
   std::vector<Lock> locks;
+  std::vector<Start> start;
   std::vector<double> events;
 };
 
@@ -62,9 +75,6 @@ std::string trial_yaml(const std::string& path);
 
 /// The model file named in trial.yaml, resolved.
 std::string read_model_path(const model::YamlNode& root);
-
-/// "rad" or "m": the unit of what a sensor measures.
-std::string sensor_unit(const model::Model& model, const std::string& sensor);
 
 /// Refuses a name that is neither a coordinate nor a motor; returns its unit, rad or m.
 std::string placed_unit(const model::YamlNode& node, const std::string& name, const model::Model& model);

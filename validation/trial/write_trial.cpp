@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "simulator/model/kinds.h"
 #include "simulator/trace/number_text.h"
 #include "simulator/trace/table.h"
 #include "simulator/trace/units.h"
@@ -81,6 +82,9 @@ class TrialWriter {
   }
 
   void write_commands() {
+    if (trial_.commands.empty()) {
+      return;  // of a robot without motors
+    }
     out_ << YAML::Key << "commands" << YAML::Value << YAML::BeginMap;
     for (const Command& command : trial_.commands) {
       out_ << YAML::Key << command.motor << YAML::Value;
@@ -94,8 +98,8 @@ class TrialWriter {
     out_ << YAML::Key << "measured" << YAML::Value << YAML::BeginMap;
     for (const Measured& measured : trial_.measured) {
       out_ << YAML::Key << measured.sensor << YAML::Value;
-      column(or_else(measured.column, "q_" + measured.sensor),
-             or_else(measured.unit, sensor_unit(model_, measured.sensor)), measured.values);
+      column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
+             or_else(measured.unit, model::reading_unit(model_, measured.sensor)), measured.values);
     }
     for (const SwitchRecord& record : trial_.switches) {
       out_ << YAML::Key << record.name << YAML::Value;
@@ -127,7 +131,7 @@ class TrialWriter {
   }
 
   void write_controller(const Controller& c) {
-    const std::string position = sensor_unit(model_, c.sensor);
+    const std::string position = model::reading_unit(model_, c.sensor);
     const std::string command = command_unit(model_, c.motor);
     out_ << YAML::BeginMap;
     entry("kind", c.kind);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/kinds.h"
 #include "simulator/model/yaml_node.h"
 #include "simulator/trace/number_text.h"
 #include "validation/trial/physical_number.h"
@@ -90,7 +91,7 @@ std::vector<Controller> read_controllers(const YamlNode& node, const Model& mode
     if (std::any_of(controllers.begin(), controllers.end(), same)) {
       item.refuse("a second controller of motor " + one.motor, "one for each motor");
     }
-    const Excitations shapes = read_excitations(item.at("reference"), sensor_unit(model, one.sensor),
+    const Excitations shapes = read_excitations(item.at("reference"), model::reading_unit(model, one.sensor),
                                                 "sensor " + one.sensor, sampling);
     one.reference = sampled_sum(shapes, sampling);
     controllers.push_back(std::move(one));
@@ -135,7 +136,7 @@ Experiment experiment_from(const YamlNode& root, const Model& model) {
   if (const auto controllers = root.find("controllers")) {
     experiment.controllers = read_controllers(*controllers, model, sampling);
   }
-  if (experiment.controllers.empty() || root.has("commands")) {
+  if ((experiment.controllers.empty() && !model.motors.empty()) || root.has("commands")) {
     experiment.commands = read_commands(root.at("commands"), model, sampling);
   }
   join(model, experiment);

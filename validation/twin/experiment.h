@@ -10,12 +10,6 @@
 
 namespace plumbline::validation {
 
-/// A coordinate's position at time 0, rad or m.
-struct Start {
-  std::string coordinate;
-  double position = 0.0;
-};
-
 struct Experiment {
   std::string file;
   std::string title;

@@ -1,4 +1,4 @@
-#include "validation/report/phases.h"
+#include "validation/compare/phases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +74,54 @@ void add_contact(const Trial& trial, PhaseTable& table) {
       table);
 }
 
+/// First sample of each stance that begins and ends with a flight, and the first one behind it.
+struct Stance {
+  Eigen::Index first = 0, end = 0;
+};
+
+std::vector<Stance> stances_of(const Trial& trial) {
+  std::vector<bool> down;
+  for (const SwitchRecord& record : trial.switches) {
+    down.push_back(record.values[0] > 0.0);
+  }
+  const auto in_flight = [&down] { return std::find(down.begin(), down.end(), true) == down.end(); };
+  std::vector<Stance> stances;
+  Eigen::Index landed = -1;
+  for (const ContactEvent& event : trial.contact_events) {
+    const bool flew = in_flight();
+    down[static_cast<std::size_t>(event.record)] = event.touchdown;
+    if (flew && event.touchdown) {
+      landed = event.sample;
+    } else if (in_flight() && landed >= 0) {
+      stances.push_back({landed, event.sample});
+    }
+  }
+  return stances;
+}
+
+void add_stance(const Trial& trial, PhaseTable& table) {
+  constexpr Eigen::Index kTenths = 10;
+  const std::vector<Stance> stances = stances_of(trial);
+  if (stances.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (Eigen::Index t = 0; t < kTenths; ++t) {
+    names.push_back(std::to_string(10 * t) + "-" + std::to_string(10 * (t + 1)) + " %");
+  }
+  names.emplace_back("else");
+  std::vector<std::size_t> tenth(static_cast<std::size_t>(trial.samples()), names.size() - 1);
+  for (const Stance& stance : stances) {
+    for (Eigen::Index k = stance.first; k < stance.end; ++k) {
+      tenth[static_cast<std::size_t>(k)] =
+          static_cast<std::size_t>(kTenths * (k - stance.first) / (stance.end - stance.first));
+    }
+  }
+  add_group(
+      "stance", names, trial.samples(), [&](Eigen::Index k) { return tenth[static_cast<std::size_t>(k)]; },
+      table);
+}
+
 void add_events(const Trial& trial, PhaseTable& table) {
   if (trial.events.empty()) {
     return;
@@ -101,6 +149,7 @@ PhaseTable phases_of(const Trial& trial, const Measured& channel) {
   PhaseTable table;
   const Eigen::Index n = trial.samples();
   add_contact(trial, table);
+  add_stance(trial, table);
   add_events(trial, table);
   add_group(
       "time", {"early", "middle", "late"}, n,
