@@ -74,27 +74,16 @@ void add_contact(const Trial& trial, PhaseTable& table) {
       table);
 }
 
-/// First sample of each stance that begins and ends with a flight, and the first one behind it.
+/// From one flight to the next.
 struct Stance {
   Eigen::Index first = 0, end = 0;
 };
 
 std::vector<Stance> stances_of(const Trial& trial) {
-  std::vector<bool> down;
-  for (const SwitchRecord& record : trial.switches) {
-    down.push_back(record.values[0] > 0.0);
-  }
-  const auto in_flight = [&down] { return std::find(down.begin(), down.end(), true) == down.end(); };
+  const std::vector<Flight> flights = flights_of(trial);
   std::vector<Stance> stances;
-  Eigen::Index landed = -1;
-  for (const ContactEvent& event : trial.contact_events) {
-    const bool flew = in_flight();
-    down[static_cast<std::size_t>(event.record)] = event.touchdown;
-    if (flew && event.touchdown) {
-      landed = event.sample;
-    } else if (in_flight() && landed >= 0) {
-      stances.push_back({landed, event.sample});
-    }
+  for (std::size_t i = 0; i + 1 < flights.size(); ++i) {
+    stances.push_back({flights[i].end, flights[i + 1].first});
   }
   return stances;
 }

@@ -18,41 +18,27 @@ Eigen::Index sample_at(const Trial& trial, double time) {
   return std::lower_bound(begin, begin + trial.samples(), time) - begin;
 }
 
-/// Where windows end in the flight that contact events `up` and `down` bound: a little after lift-off and a
-/// little before touchdown; in the middle of a flight that is too short for a window of its own.
-void cut_flight(const Trial& trial, Eigen::Index up, Eigen::Index down, std::vector<Eigen::Index>& cuts) {
+/// Where windows end in a flight: a little after lift-off and a little before touchdown; in the middle of a
+/// flight that is too short for a window of its own.
+void cut_flight(const Trial& trial, const Flight& flight, std::vector<Eigen::Index>& cuts) {
   const auto tail = static_cast<Eigen::Index>(std::lround(kTail / trial.period));
   const auto lead = static_cast<Eigen::Index>(std::lround(kLead / trial.period));
-  const Eigen::Index flight = down - up;
-  if (flight >= tail + lead + kShortest) {
-    cuts.push_back(up + tail);
-    cuts.push_back(down - lead);
-  } else if (flight >= 2 * kShortest) {
-    cuts.push_back(up + flight / 2);
+  const Eigen::Index samples = flight.end - flight.first;
+  if (samples >= tail + lead + kShortest) {
+    cuts.push_back(flight.first + tail);
+    cuts.push_back(flight.end - lead);
+  } else if (samples >= 2 * kShortest) {
+    cuts.push_back(flight.first + samples / 2);
   }
 }
 
-/// Of the trial's contact events. No window begins at an impact: it begins in the flight before, where its
-/// initial state is well known, and ends in the flight behind, so that it holds the instants of the contact.
-/// In flight no switch is closed: two feet that come down one after the other share a window.
+/// No window begins at an impact: it begins in the flight before, where its initial state is well known, and
+/// ends in the flight behind, so that it holds the instants of the contact.
 void cut_at_contact(const Trial& trial, std::vector<Eigen::Index>& cuts) {
-  std::vector<bool> down;
-  for (const SwitchRecord& record : trial.switches) {
-    down.push_back(record.values[0] > 0.0);
-  }
-  const auto in_flight = [&down] { return std::find(down.begin(), down.end(), true) == down.end(); };
-  Eigen::Index up = 0;
-  for (const ContactEvent& event : trial.contact_events) {
-    const bool was_in_flight = in_flight();
-    down[static_cast<std::size_t>(event.record)] = event.touchdown;
-    if (was_in_flight && event.touchdown) {
-      cut_flight(trial, up, event.sample, cuts);
-    } else if (in_flight()) {
-      up = event.sample;
+  for (const Flight& flight : flights_of(trial)) {
+    if (flight.begins || flight.ends) {
+      cut_flight(trial, flight, cuts);
     }
-  }
-  if (in_flight() && up > 0) {
-    cut_flight(trial, up, trial.samples() - 1, cuts);
   }
 }
 

@@ -53,20 +53,45 @@ std::vector<ContactEvent> contact_events(const Trial& trial, double shortest) {
   return events;
 }
 
-std::optional<Flight> flight_at(const Trial& trial, Eigen::Index sample) {
+std::vector<Flight> flights_of(const Trial& trial) {
+  std::vector<Flight> flights;
+  if (trial.switches.empty()) {
+    return flights;
+  }
   std::vector<bool> down;
   for (const SwitchRecord& record : trial.switches) {
     down.push_back(record.values[0] > 0.0);
   }
-  const ContactEvent* last = nullptr;
+  const auto in_flight = [&down] { return std::find(down.begin(), down.end(), true) == down.end(); };
+  const Eigen::Index last = trial.samples() - 1;
+  const Flight open{trial.time[0], trial.time[last], 0, last, -1, false, false};
+  if (in_flight()) {
+    flights.push_back(open);
+  }
   for (const ContactEvent& event : trial.contact_events) {
-    const bool in_flight = std::find(down.begin(), down.end(), true) == down.end();
-    if (event.sample > sample) {
-      const bool bounded = in_flight && last != nullptr && event.touchdown;
-      return bounded ? std::optional<Flight>({last->time, event.time, event.record}) : std::nullopt;
-    }
+    const bool flew = in_flight();
     down[static_cast<std::size_t>(event.record)] = event.touchdown;
-    last = &event;
+    if (flew && event.touchdown) {
+      Flight& flight = flights.back();
+      flight.touchdown = event.time;
+      flight.end = event.sample;
+      flight.record = event.record;
+      flight.ends = true;
+    } else if (!flew && in_flight()) {
+      flights.push_back(open);
+      flights.back().lift_off = event.time;
+      flights.back().first = event.sample;
+      flights.back().begins = true;
+    }
+  }
+  return flights;
+}
+
+std::optional<Flight> flight_at(const Trial& trial, Eigen::Index sample) {
+  for (const Flight& flight : flights_of(trial)) {
+    if (flight.begins && flight.ends && flight.first <= sample && sample < flight.end) {
+      return flight;
+    }
   }
   return std::nullopt;
 }

@@ -99,11 +99,16 @@ double timing_floor(const Trial& trial);
 /// the foot, which a small error of the model may miss, and no event: both changes are left out.
 std::vector<ContactEvent> contact_events(const Trial& trial, double shortest = 0.02);
 
-/// A flight between the last lift-off and the touchdown that ends it.
+/// A time in which no contact switch is closed.
 struct Flight {
-  double lift_off = 0.0, touchdown = 0.0;  ///< s
-  int record = 0;                          ///< index in Trial::switches of the switch that closes
+  double lift_off = 0.0, touchdown = 0.0;  ///< s; where the recording does not show one, its own end
+  Eigen::Index first = 0, end = 0;         ///< first sample, and the first one behind it
+  int record = -1;                         ///< index in Trial::switches of the one that closes; -1: none
+  bool begins = false, ends = false;       ///< within the recording
 };
+
+/// In the order of time, from contact_events: two feet that come down one after the other end one flight.
+std::vector<Flight> flights_of(const Trial& trial);
 
 /// The flight in which a sample lies; empty where a switch is closed, and where the recording does not show
 /// both ends of the flight.
