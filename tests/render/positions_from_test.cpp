@@ -33,6 +33,7 @@ class PositionsFromSensors : public testing::Test {
 
 TEST_F(PositionsFromSensors, AllEncodersGiveAllPositions) {
   std::vector<Observation> channels;
+  channels.reserve(static_cast<std::size_t>(plant_.sensors()));
   for (int s = 0; s < plant_.sensors(); ++s) {
     channels.push_back(observe_sensor(plant_, s));
   }

@@ -15,7 +15,7 @@ inline std::string refusal(const std::function<void()>& action) {
   try {
     action();
   } catch (const InputError& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     return text;
   } catch (const std::exception& error) {
