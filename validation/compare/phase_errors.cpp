@@ -8,36 +8,6 @@
 namespace plumbline::validation {
 namespace {
 
-/// Residuals of a trial, samples x channels, SI; NaN where no window predicts.
-Eigen::MatrixXd nothing_predicted(const Trial& trial) {
-  return Eigen::MatrixXd::Constant(trial.samples(), static_cast<Eigen::Index>(trial.measured.size()),
-                                   std::numeric_limits<double>::quiet_NaN());
-}
-
-std::vector<Eigen::MatrixXd> residuals_of(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                          const Estimate& estimate) {
-  const Data& data = pool.data();
-  std::vector<Eigen::MatrixXd> residuals;
-  for (const Trial& trial : data.trials) {
-    residuals.push_back(nothing_predicted(trial));
-  }
-  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
-    const auto i = static_cast<std::size_t>(w);
-    const Window& window = data.windows[i];
-    const Trial& trial = data.trials[static_cast<std::size_t>(window.trial)];
-    pool.with(w, parameters, estimate.theta, [&](Predictor& predictor) {
-      const Eigen::MatrixXd predicted = predictor.predict(window, estimate.x0[i]);
-      Eigen::MatrixXd& into = residuals[static_cast<std::size_t>(window.trial)];
-      for (Eigen::Index c = 0; c < predicted.cols(); ++c) {
-        into.col(c).segment(window.first, window.count) =
-            trial.measured[static_cast<std::size_t>(c)].values.segment(window.first, window.count) -
-            predicted.col(c);
-      }
-    });
-  });
-  return residuals;
-}
-
 void add_phases(const Trial& trial, const model::Sensor& sensor, const std::string& unit,
                 const Measured& channel, const Eigen::VectorXd& residual, std::vector<PhaseError>& errors) {
   const PhaseTable table = phases_of(trial, channel);
@@ -63,9 +33,30 @@ void add_phases(const Trial& trial, const model::Sensor& sensor, const std::stri
 
 }  // namespace
 
+std::vector<Eigen::MatrixXd> predicted_traces(PredictorPool& pool,
+                                              const std::vector<FreeParameter>& parameters,
+                                              const Estimate& estimate) {
+  const Data& data = pool.data();
+  std::vector<Eigen::MatrixXd> traces;
+  for (const Trial& trial : data.trials) {
+    traces.push_back(Eigen::MatrixXd::Constant(trial.samples(),
+                                               static_cast<Eigen::Index>(trial.measured.size()),
+                                               std::numeric_limits<double>::quiet_NaN()));
+  }
+  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    const Window& window = data.windows[i];
+    pool.with(w, parameters, estimate.theta, [&](Predictor& predictor) {
+      traces[static_cast<std::size_t>(window.trial)].middleRows(window.first, window.count) =
+          predictor.predict(window, estimate.x0[i]);
+    });
+  });
+  return traces;
+}
+
 std::vector<PhaseError> phase_errors(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                      const Estimate& estimate) {
-  const std::vector<Eigen::MatrixXd> residuals = residuals_of(pool, parameters, estimate);
+  const std::vector<Eigen::MatrixXd> predicted = predicted_traces(pool, parameters, estimate);
   const std::vector<Trial>& trials = pool.data().trials;
   std::vector<PhaseError> errors;
   for (std::size_t t = 0; t < trials.size(); ++t) {
@@ -73,7 +64,7 @@ std::vector<PhaseError> phase_errors(PredictorPool& pool, const std::vector<Free
       const Measured& channel = trials[t].measured[c];
       add_phases(trials[t], *pool.model().find_sensor(channel.sensor),
                  model::reading_unit(pool.model(), channel.sensor), channel,
-                 residuals[t].col(static_cast<Eigen::Index>(c)), errors);
+                 channel.values - predicted[t].col(static_cast<Eigen::Index>(c)), errors);
     }
   }
   return errors;

@@ -19,6 +19,12 @@ struct PhaseError {
   double ratio = 0.0;  ///< rms / floor
 };
 
+/// Predictions of each trial from the estimate's parameters and initial states, samples x channels, SI; NaN
+/// where no window predicts.
+std::vector<Eigen::MatrixXd> predicted_traces(PredictorPool& pool,
+                                              const std::vector<FreeParameter>& parameters,
+                                              const Estimate& estimate);
+
 /// For every channel and every phase that holds samples (phases.h), predicted from the estimate's parameters
 /// and initial states.
 std::vector<PhaseError> phase_errors(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
