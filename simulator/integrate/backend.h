@@ -28,6 +28,8 @@ class Backend {
   /// Integrate to t_stop, or to the first switch before it: true, with `directions` filled; the method has
   /// then begun anew behind the switch.
   virtual bool advance(double t_stop) = 0;
+  /// The same, but of one step at most.
+  virtual bool step_once(double t_stop) = 0;
   virtual Counts counts() const = 0;
   /// The state whose local error was largest, by its weight, in the last step tried; -1: none.
   virtual int worst_state() const = 0;

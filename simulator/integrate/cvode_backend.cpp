@@ -22,7 +22,8 @@ class CvodeBackend : public Backend {
 
   void start(double t, const Eigen::VectorXd& x) override;
   void input_changed(bool keep_history) override;
-  bool advance(double t_stop) override;
+  bool advance(double t_stop) override { return evolve_or_restart(t_stop, CV_NORMAL); }
+  bool step_once(double t_stop) override { return evolve_or_restart(t_stop, CV_ONE_STEP); }
   Counts counts() const override;
   int worst_state() const override;
 
@@ -30,7 +31,8 @@ class CvodeBackend : public Backend {
   void configure();
   void begin_anew();
   void restart();
-  int evolve(double t_stop);
+  int evolve(double t_stop, int task);
+  bool evolve_or_restart(double t_stop, int task);
   void require(int flag);
   Counts counts_since_restart() const;
 
@@ -119,18 +121,18 @@ void CvodeBackend::input_changed(bool keep_history) {
   if (!keep_history && !fresh_) restart();
 }
 
-int CvodeBackend::evolve(double t_stop) {
+int CvodeBackend::evolve(double t_stop, int task) {
   require(CVodeSetStopTime(memory_.get(), t_stop));
   stepping_ = true;
-  return CVode(memory_.get(), t_stop, vector_.get(), &t_, CV_NORMAL);
+  return CVode(memory_.get(), t_stop, vector_.get(), &t_, task);
 }
 
-bool CvodeBackend::advance(double t_stop) {
-  int flag = evolve(t_stop);
+bool CvodeBackend::evolve_or_restart(double t_stop, int task) {
+  int flag = evolve(t_stop, task);
   if ((flag == CV_ERR_FAILURE || flag == CV_CONV_FAILURE) && !fresh_) {
     // An input can jump so far that no step from the old history passes.
     restart();
-    flag = evolve(t_stop);
+    flag = evolve(t_stop, task);
   }
   if (flag != CV_TOO_MUCH_WORK) require(flag);
   fresh_ = false;

@@ -63,8 +63,13 @@ struct Integrator::Impl {
   void record_switches() {
     for (std::size_t i = 0; i < backend->directions().size(); ++i) {
       const int direction = backend->directions()[i];
-      if (direction != 0) events.push_back({backend->time(), static_cast<int>(i), direction, backend->state()});
+      if (direction != 0)
+        events.push_back({backend->time(), static_cast<int>(i), direction, backend->state()});
     }
+  }
+
+  void forbid_return(double t_end) {
+    if (!(t_end >= backend->time() - roundoff(t_end))) fail("cannot go back to t = " + in_seconds(t_end));
   }
 
   [[noreturn]] void fail(const std::string& reason) { backend->fail(reason); }
@@ -96,7 +101,7 @@ void Integrator::input_changed(bool keep_history) {
 
 void Integrator::advance(double t_end) {
   Backend& backend = *impl_->backend;
-  if (!(t_end >= backend.time() - roundoff(t_end))) impl_->fail("cannot go back to t = " + in_seconds(t_end));
+  impl_->forbid_return(t_end);
   const long allowed = backend.counts().steps + impl_->options.max_steps;
   while (t_end - backend.time() > roundoff(t_end)) {
     if (backend.counts().steps >= allowed) {
@@ -106,6 +111,13 @@ void Integrator::advance(double t_end) {
     if (backend.advance(t_end)) impl_->record_switches();
   }
   backend.set_time(t_end);
+}
+
+void Integrator::step(double t_end) {
+  Backend& backend = *impl_->backend;
+  impl_->forbid_return(t_end);
+  if (t_end - backend.time() > roundoff(t_end) && backend.step_once(t_end)) impl_->record_switches();
+  if (t_end - backend.time() <= roundoff(t_end)) backend.set_time(t_end);
 }
 
 double Integrator::time() const { return impl_->backend->time(); }

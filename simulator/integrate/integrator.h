@@ -96,6 +96,8 @@ class Integrator {
   /// local error and the Ode's stiffest element. What the Ode throws passes through. After either, start
   /// again.
   void advance(double t_end);
+  /// The same, but of one step of the method at most: t_end need not be reached.
+  void step(double t_end);
 
   double time() const;
   const Eigen::VectorXd& state() const;

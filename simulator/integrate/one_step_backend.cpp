@@ -21,6 +21,14 @@ bool OneStepBackend::advance(double t_stop) {
     steps(t_stop);
     return false;
   }
+  return step_once(t_stop);
+}
+
+bool OneStepBackend::step_once(double t_stop) {
+  if (directions_.empty()) {
+    step(t_stop);
+    return false;
+  }
   if (!switches_known_) bridge_.switches_at(t_, x_, g_);
   const double t_before = t_;
   x_before_ = x_;

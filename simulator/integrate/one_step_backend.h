@@ -11,6 +11,7 @@ class OneStepBackend : public Backend {
   /// falsify.
   void input_changed(bool /*keep_history*/) override {}
   bool advance(double t_stop) override;
+  bool step_once(double t_stop) override;
 
  protected:
   OneStepBackend(Bridge& bridge, const Options& options)

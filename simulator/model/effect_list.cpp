@@ -70,16 +70,29 @@ bool same_place(const EffectUse& a, const EffectUse& b) {
   return a.law->declaration().name == b.law->declaration().name && a.at == b.at;
 }
 
+/// Is the effect meant to sit at its place beside one of its kind?
+bool is_again(const YamlNode& node) {
+  const auto again = node.find("again");
+  if (again && again->text() != "true") {
+    again->refuse(quote(again->text()), "true, or no such key");
+  }
+  return again.has_value();
+}
+
 void refuse_repetition(const YamlNode& node, const EffectUse& use, const Model& model) {
+  if (is_again(node)) {
+    return;
+  }
   for (const EffectUse& other : model.effects) {
     if (same_place(use, other) && same_structure(use, other)) {
-      node.refuse(use.label() + " twice", "each effect once at a place, unless structural values differ");
+      node.refuse(use.label() + " twice",
+                  "each effect once at a place, unless structural values differ or it says \"again: true\"");
     }
   }
 }
 
 EffectUse read_effect(const YamlNode& node, const effects::Catalogue& catalogue, const Model& model) {
-  node.allow_keys({"effect", "at", "values"});
+  node.allow_keys({"effect", "at", "again", "values"});
   const YamlNode name = node.at("effect");
   EffectUse use;
   use.law = catalogue.find(name.text());

@@ -32,6 +32,9 @@ void emit_effect(YAML::Emitter& out, const AddedEffect& added, const effects::La
   out << YAML::BeginMap;
   emit_text(out, "effect", added.effect);
   emit_text(out, "at", added.at);
+  if (added.again) {
+    out << YAML::Key << "again" << YAML::Value << true;
+  }
   out << YAML::Key << "values" << YAML::Value << YAML::BeginMap;
   for (int i = 0; i < law.parameter_count(); ++i) {
     const auto index = static_cast<std::size_t>(i);

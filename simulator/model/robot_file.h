@@ -25,6 +25,7 @@ Skeleton read_skeleton(const std::string& path);
 struct AddedEffect {
   std::string effect, at;
   effects::Values values;
+  bool again = false;  ///< beside one of its kind that the base has there
 };
 struct NewValue {
   std::string at_key;  ///< "viscous@mLA:damping"

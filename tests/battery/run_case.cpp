@@ -90,6 +90,9 @@ bool finds(const validation::Finding& finding, const model::EffectUse& truth, st
 void count_intervals(const validation::Finding& finding, const model::EffectUse& truth, Result& result) {
   constexpr double kDeviations = 1.96;
   for (const validation::ParameterValue& fitted : finding.parameters) {
+    if (fitted.chosen) {
+      continue;
+    }
     const int index = truth.law->parameter_index(fitted.name);
     const double value = truth.values[static_cast<std::size_t>(index)].value;
     ++result.asked;

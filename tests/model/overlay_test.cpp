@@ -84,6 +84,15 @@ TEST_F(OverlayTest, ASecondEffectOfOneNameAtOnePlaceHasANumber) {
   EXPECT_EQ(model.effects[2].values[0].value, 8.0);
 }
 
+TEST_F(OverlayTest, HoldsASecondEffectOfAKindWhenItSaysSo) {
+  const std::string path = folder_.path("again.yaml");
+  write(path, base_, {{"drag", "mTip", {0.7}, true}}, {{"drag@mTip#2:damping", 0.8, 0, "N m s/rad", "fit"}});
+  const Model model = read(path);
+  EXPECT_EQ(model.effects.back().label(), "drag at mTip");
+  EXPECT_EQ(model.effects[0].label(), "drag at mTip");
+  EXPECT_EQ(model.effects.back().values[0].value, 0.8);
+}
+
 TEST_F(OverlayTest, RefusesBadOverlays) {
   EXPECT_THAT(refusal_of("robot: x\n"), HasSubstr(":3: robot: found an unknown key, expected a known key"));
   EXPECT_THAT(
@@ -94,6 +103,8 @@ TEST_F(OverlayTest, RefusesBadOverlays) {
               HasSubstr(":4: values.drag@mTip:damping.value: found 11 (SI), expected a value from 0 to 10"));
   EXPECT_THAT(refusal_of("effects:\n  - {effect: drag, at: mTip}\n"),
               HasSubstr(":4: effects.1: found drag at mTip twice"));
+  EXPECT_THAT(refusal_of("effects:\n  - {effect: drag, at: mTip, again: 2}\n"),
+              HasSubstr(":4: effects.1.again: found \"2\", expected true"));
   EXPECT_THAT(refusal_of("effects: {drag: 1}\n"), HasSubstr(":3: effects: found a map, expected a list"));
 }
 

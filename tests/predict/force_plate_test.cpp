@@ -79,6 +79,42 @@ TEST_F(ForcePlate, AWindowBeginsWhereTheFlightLeads) {
   EXPECT_LT(std::abs(r[touchdown] * timing_floor(trial)), 1e-4);
 }
 
+// The oracle is differences of whole predictions: the variational equations know nothing of them.
+TEST_F(ForcePlate, HasTheSlopesOfItsPredictions) {
+  const Trial trial = bounces(model_, "drop");
+  const Window window = stance(trial);
+  const model::Model model =
+      with(with(model_, "added_mass@body:mass=1"), "hysteresis@leg:loss=500,rest=0.05");
+  const std::vector<FreeParameter> parameters =
+      matching(free_parameters(model), {"added_mass@*", "hysteresis@leg:*", "spring@leg:stiffness",
+                                        "viscous@leg:damping", "ground_normal@toe:stiffness"});
+  PredictOptions options;
+  Predictor predictor(model, trial, options);
+  options.relative_tolerance = 1e-9;
+  Predictor exact(model, trial, options);
+  const Eigen::VectorXd x0 = predictor.initial_state(window);
+  const Linearisation found = predictor.linearise(window, x0, parameters);
+  const auto agree = [](const Eigen::VectorXd& slope, const Eigen::VectorXd& oracle, const std::string& of) {
+    EXPECT_LT((slope - oracle).norm(), 0.03 * oracle.norm()) << of;
+  };
+  // The body's height and speed. (The leg begins at its stop, where slopes to either side differ.)
+  for (const Eigen::Index i : {0, 2}) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(x0.size(), i) * (i < 2 ? 1e-7 : 1e-5);
+    const Eigen::VectorXd rise = exact.residual(window, x0 - step) - exact.residual(window, x0 + step);
+    agree(found.Jx.col(i), rise / (2.0 * step[i]), "state " + std::to_string(i));
+  }
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const double here = exact.plant().value(parameters[p].id);
+    const double step = 1e-4 * here;
+    parameters[p].set(exact.plant(), here + step);
+    const Eigen::VectorXd above = exact.residual(window, x0);
+    parameters[p].set(exact.plant(), here - step);
+    const Eigen::VectorXd below = exact.residual(window, x0);
+    parameters[p].set(exact.plant(), here);
+    agree(found.Jp.col(static_cast<Eigen::Index>(p)), (below - above) / (2.0 * step), parameters[p].label);
+  }
+}
+
 TEST_F(ForcePlate, TellsTheMassAndTheStiffness) {
   const Data data({bounces(with(model_, "added_mass@body:mass=4"), "drop")}, {});
   const model::Model wrong = with(model_, "added_mass@body");

@@ -26,13 +26,15 @@ using validation::Verdict;
 
 using validation::UnexplainedForce;
 
-/// The force that the final model does not explain, where the inverse model can tell.
+/// The force that the final model does not explain, where the inverse model or a force plate can tell.
 void print_unexplained(const std::vector<UnexplainedForce>& forces) {
   constexpr double kShown = 0.02;
   if (forces.empty()) {
     return;
   }
-  fmt::print("\nUnexplained force at the motors (recorded minus needed, below 40 Hz):\n\n");
+  fmt::print(
+      "\nUnexplained force (at motors recorded minus needed, below 40 Hz; of plates measured minus predicted,"
+      "\non the ground):\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const UnexplainedForce& f : forces) {
     std::string shares;
@@ -41,10 +43,10 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
         shares += fmt::format("{}{} {:.0f} %  ", d.variable, d.of_size ? " (size)" : "", 100.0 * d.share);
       }
     }
-    rows.push_back({f.trial, f.motor, fmt::format("{:.3g} {}", f.rms, f.unit),
+    rows.push_back({f.trial, f.at, fmt::format("{:.3g} {}", f.rms, f.unit),
                     fmt::format("{:.1f} %", 100.0 * f.relative), f.words, shares});
   }
-  print_table({"trial", "motor", "rms", "of the force", "it", "share of its variance that follows"}, rows);
+  print_table({"trial", "at", "rms", "of the force", "it", "share of its variance that follows"}, rows);
 }
 
 void print_verdict(const Diagnosis& diagnosis) {
@@ -70,7 +72,9 @@ void print_verdict(const Diagnosis& diagnosis) {
     fmt::print("{}\n", validation::finding_sentences(finding, diagnosis.verdict));
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
-      fmt::print("  {} = {:.4g} +- {:.2g} {}\n", p.name, p.value, p.deviation, p.unit);
+      fmt::print("  {} = {:.4g} ", p.name, p.value);
+      fmt::print("{}{}\n", p.chosen ? "(chosen)" : fmt::format("+- {:.2g} ", p.deviation),
+                 p.chosen ? "" : p.unit);
     }
     if (!finding.rivals.empty()) {
       fmt::print("  These data cannot tell it from:");
@@ -151,6 +155,12 @@ void print(const Diagnosis& diagnosis) {
   print_pairs(diagnosis.pairs);
 }
 
+/// Does the model have an effect of this kind at the same place?
+bool has_one(const model::Model& model, const model::EffectUse& use) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [&](const model::EffectUse& other) { return other.label() == use.label(); });
+}
+
 /// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
 void save_model(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
   std::vector<model::AddedEffect> added;
@@ -162,7 +172,7 @@ void save_model(const Diagnosis& diagnosis, const model::Model& given, const std
     const model::EffectUse& use = stage.model.effects[e];
     const effects::Values numbers = use.numbers();
     if (!use.law->is_null(numbers.data())) {
-      added.push_back({use.law->declaration().name, use.at, numbers});
+      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use)});
     }
   }
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
@@ -210,16 +220,14 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     std::vector<UnexplainedForce> left;
     if (!diagnosis.interrupted &&
         (diagnosis.unexplained_share > 0.02 || diagnosis.verdict == Verdict::unexplained)) {
-      const auto& stage = diagnosis.final_stage;
-      left = validation::unexplained_forces(
-          validation::with_values(stage.model, stage.parameters, stage.estimate.theta), *loaded.data);
+      left = validation::unexplained_forces(diagnosis.final_stage, *loaded.data);
     }
     write_json(validation::to_json(diagnosis, left), options->inputs.json);
+    print(diagnosis);
+    print_unexplained(left);
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
       save_model(diagnosis, loaded.model, options->save);
     }
-    print(diagnosis);
-    print_unexplained(left);
   });
 }
 

@@ -74,20 +74,6 @@ void add_contact(const Trial& trial, PhaseTable& table) {
       table);
 }
 
-/// From one flight to the next.
-struct Stance {
-  Eigen::Index first = 0, end = 0;
-};
-
-std::vector<Stance> stances_of(const Trial& trial) {
-  const std::vector<Flight> flights = flights_of(trial);
-  std::vector<Stance> stances;
-  for (std::size_t i = 0; i + 1 < flights.size(); ++i) {
-    stances.push_back({flights[i].end, flights[i + 1].first});
-  }
-  return stances;
-}
-
 void add_stance(const Trial& trial, PhaseTable& table) {
   constexpr Eigen::Index kTenths = 10;
   const std::vector<Stance> stances = stances_of(trial);

@@ -78,7 +78,7 @@ Dependence of_size(Dependence dependence) {
   return dependence;
 }
 
-std::string size_in_words(const Dependence& d) {
+std::string size_in_words(const Dependence& d, const std::string& whose) {
   constexpr double kOnly = 5.0;
   const double first = d.mean.front();
   const double last = d.mean.back();
@@ -92,11 +92,13 @@ std::string size_in_words(const Dependence& d) {
                                 : "is largest without load";
   }
   if (d.variable == "velocity") {
-    return last > kOnly * first ? "is there only in motion"
-           : rises              ? "grows with the speed"
-                                : "is largest at rest";
+    return (last > kOnly * first ? "is there only in motion"
+            : rises              ? "grows with the speed"
+                                 : "is largest at rest") +
+           whose;
   }
-  return "is stronger at some positions than at others";
+  return d.variable == "stance" ? "is stronger in some parts of the stance than in others"
+                                : "is stronger at some positions" + whose + " than at others";
 }
 
 }  // namespace
@@ -113,8 +115,12 @@ std::vector<Dependence> dependences_of(const ForceSamples& s) {
                               of_size(depend("velocity", x + "/s", s.velocity.cwiseAbs(), size, kBins)),
                               of_size(depend("load", s.force_unit, s.load.cwiseAbs(), size, kBins)),
                               of_size(depend("time", "s", s.time, size, kBins))};
-  if (s.angular) {
+  if (s.angular && s.of.empty()) {
     all.push_back(depend_on_turn(s));
+  }
+  if (s.stance.size() > 0) {
+    all.push_back(depend("stance", "1", s.stance, s.force, kBins));
+    all.push_back(of_size(depend("stance", "1", s.stance, size, kBins)));
   }
   // A force that follows the variable itself also changes its size with it: that is the lesser statement. And
   // what two bins say as well as twelve is said by two.
@@ -126,13 +132,15 @@ std::vector<Dependence> dependences_of(const ForceSamples& s) {
   return all;
 }
 
-std::string in_words(const std::vector<Dependence>& strongest_first) {
+std::string in_words(const std::vector<Dependence>& strongest_first, const std::string& of) {
   const Dependence& d = strongest_first.front();
+  const std::string whose = of.empty() ? "" : " of " + of;
   if (d.share < 0.1) {
-    return "follows none of position, velocity, load, time and motor angle";
+    return of.empty() ? "follows none of position, velocity, load, time and motor angle"
+                      : "follows none of position and velocity" + whose + ", load, time and stance";
   }
   if (d.of_size) {
-    return size_in_words(d);
+    return size_in_words(d, whose);
   }
   if (d.variable == "time") {
     return d.mean.back() > d.mean.front() ? "rises over the trial" : "falls over the trial";
@@ -140,7 +148,12 @@ std::string in_words(const std::vector<Dependence>& strongest_first) {
   if (d.variable == "motor angle") {
     return "repeats " + std::to_string(d.repeats) + " times in a turn of the motor";
   }
-  return d.variable == "direction" ? "depends on the direction of motion" : "depends on the " + d.variable;
+  if (d.variable == "stance") {
+    return "depends on the phase of the stance";
+  }
+  const bool moves = d.variable == "position" || d.variable == "velocity";
+  return d.variable == "direction" ? "depends on the direction of motion" + whose
+                                   : "depends on the " + d.variable + (moves ? whose : "");
 }
 
 }  // namespace plumbline::validation

@@ -29,6 +29,7 @@ struct ParameterValue {
   std::string name, unit;
   double value = 0.0;
   double deviation = 0.0;  ///< one standard deviation, from the spread between windows
+  bool chosen = false;     ///< structural: one of the values that were tried, with no deviation
 };
 
 struct Named {

@@ -18,6 +18,18 @@ RankRow row_of(const Candidate& candidate) {
   return row;
 }
 
+/// Structural values: the side of a stop.
+std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
+  std::vector<ParameterValue> values;
+  const std::vector<effects::Parameter>& parameters = use.law->declaration().parameters;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (parameters[p].structural) {
+      values.push_back({parameters[p].name, parameters[p].unit, use.values[p].value, 0.0, true});
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const Data& data,
@@ -91,6 +103,10 @@ void set_values(const Stage& stage, const Data& data, std::vector<Finding>& find
         findings[f].parameters.push_back({parameter.label.substr(parameter.label.find(':') + 1),
                                           parameter.unit, stage.estimate.theta[i], deviations[i]});
       }
+    }
+    for (const ParameterValue& value :
+         chosen_values(stage.model.effects[static_cast<std::size_t>(first) + f])) {
+      findings[f].parameters.push_back(value);
     }
   }
 }

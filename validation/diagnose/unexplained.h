@@ -10,16 +10,20 @@
 namespace plumbline::validation {
 
 struct UnexplainedForce {
-  std::string trial, motor, unit;
+  std::string trial, at, unit;  ///< at: motor or force plate
+  std::string of{};  ///< coordinate whose motion the force was held against; empty: the motor's own
   Role role = Role::train;
-  double rms = 0.0;                     ///< recorded minus needed force, low-passed
+  double rms = 0.0;                     ///< recorded minus needed (measured minus predicted) force
   double relative = 0.0;                ///< rms / rms of the recorded force
   std::vector<Dependence> dependences;  ///< strongest first
   std::string words;                    ///< the strongest dependence in words
 };
 
-/// For every trial and motor for which the inverse model exists (no hidden states, every position measured).
-/// The force is recorded minus needed (inverse_model), about its mean.
-std::vector<UnexplainedForce> unexplained_forces(const model::Model& model, const Data& data);
+/// Of the stage's model with the values that were fitted. For every trial and motor for which the inverse
+/// model exists (no hidden states, every position measured): recorded minus needed force (inverse_model),
+/// low- passed, about its mean. For every force plate: measured minus predicted force while a foot is on the
+/// ground (throughout, where no contact switch shows that), against the predicted motion of the coordinate
+/// that it follows best, and against the predicted force as its load.
+std::vector<UnexplainedForce> unexplained_forces(const Stage& stage, const Data& data);
 
 }  // namespace plumbline::validation

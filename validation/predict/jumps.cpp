@@ -7,10 +7,10 @@
 namespace plumbline::validation {
 
 // The integrator stopped there: the points become nodes, so that no piece runs across one.
-void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0, Eigen::Index sample) {
+void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0) {
   for (; events_seen_ < events.size(); ++events_seen_) {
     const integrate::Event& event = events[events_seen_];
-    add_node(sample, (event.time - t0) / trial_.period - static_cast<double>(sample), event.state);
+    add_node(event.time - t0, event.state);
     jump_nodes_.push_back({nodes_ - 1, jumps_[static_cast<std::size_t>(event.index)], event.direction});
   }
 }

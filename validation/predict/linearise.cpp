@@ -1,8 +1,9 @@
 // Residuals of a window with all their derivatives.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "validation/predict/plate_slopes.h"
+#include "validation/predict/sensitivity.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -22,15 +23,9 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
                  ids, steps, refresh, A, B);
 }
 
-// Sensitivities S' = A S + B along the predicted motion, over each piece (a sample, or a part of one near the
-// ground) with A and B of its middle:
-//   S <- D^-1 (N S + h P B), with Z = hA
-//   D = I - 3/5 Z + 3/20 Z^2 - 1/60 Z^3,  N = I + 2/5 Z + 1/20 Z^2,  P = Z^-1 (N - D) = I - 1/10 Z + 1/60
-//   Z^2,
-// Pade's (2,3) approximation of the exponential (Hairer and Wanner, Solving ODEs II, IV.3): what a stiff law
-// damps vanishes (L-stable), fifth order in Z, one linearisation for each piece. A compliant ground's force
-// begins and ends at zero, so that nothing jumps at touchdown and lift-off. The rigid parts are those of the
-// middle of the samples that share them.
+// Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
+// compliant ground's force begins and ends at zero, so that nothing jumps at touchdown and lift-off. The
+// rigid parts are those of the middle of the samples that share them.
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
   if (options_.differences) {
@@ -59,8 +54,8 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   }
   out.Jx.setZero(out.r.size(), nx);
   out.Jp.setZero(out.r.size(), np);
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(nx, nx + np);
-  S.leftCols(nx).setIdentity();
+  Sensitivity sensitivity(Eigen::MatrixXd::Identity(nx, nx + np));
+  Eigen::MatrixXd& S = sensitivity.S();
   const std::vector<int> carried = plant_.force_states();
   if (!carried.empty()) {
     S.rightCols(np) = hidden_slopes(window, ids, steps);
@@ -72,52 +67,51 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd B;
   Eigen::MatrixXd C;
   Eigen::MatrixXd D;
-  Eigen::MatrixXd right;
-  Eigen::MatrixXd square;
-  Eigen::MatrixXd cube;
-  Eigen::MatrixXd before;
   const Eigen::Index nz = plant_.positions();
   const std::vector<Crossing> crossings = crossings_of(window);
+  PlateSlopes plates(plant_, ids, steps);
+  Eigen::MatrixXd forces;
+  if (plates.any()) {
+    forces = plates.at(states_.col(0), S);
+  }
   for (Eigen::Index k = 0; k < window.count; ++k) {
     const Eigen::Index node = node_of(k);
     plant_.output_jacobian(states_.col(node).data(), C);
     plant_.output_tangent(states_.col(node).data(), ids, steps, D);
+    Eigen::MatrixXd slopes = C * S.topRows(nz);
+    slopes.rightCols(np) += D;
+    if (plates.any()) {
+      slopes += forces;  // a sensor's row is zero in one of the two
+    }
     for (int c = 0; c < channels(); ++c) {
       const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
       const Eigen::Index row = k * channels() + c;
-      out.Jx.row(row).noalias() = C.row(s) * S.topLeftCorner(nz, nx);
-      out.Jp.row(row).noalias() = C.row(s) * S.topRightCorner(nz, np);
-      out.Jx.row(row) /= floors_[c];
-      out.Jp.row(row) += D.row(s);
-      out.Jp.row(row) /= floors_[c];
+      out.Jx.row(row) = slopes.row(s).head(nx) / floors_[c];
+      out.Jp.row(row) = slopes.row(s).tail(np) / floors_[c];
     }
     if (k + 1 == window.count) {
       break;
     }
+    plates.begin();
     if (k % options_.refresh == 0) {
       const Eigen::Index middle = std::min(k + options_.refresh / 2, window.count - 2);
       tangent_at(window, middle, node_of(middle), ids, steps, true, A, B);
     }
     for (Eigen::Index n = node_of(k); n < node_of(k + 1); ++n) {
-      const double h = length_of(n);
       for (const JumpNode& jump : jump_nodes_) {
         if (jump.node == n) {
           jump_slopes(jump, ids, steps, S);
         }
       }
       tangent_at(window, k, n, ids, steps, false, A, B);
-      A *= h;
-      square.noalias() = A * A;
-      cube.noalias() = A * square;
-      right.noalias() = (0.4 * A + 0.05 * square) * S;
-      right += S;
-      right.rightCols(np) += h * B;
-      right.rightCols(np).noalias() += h * (square / 60.0 - 0.1 * A) * B;
-      A = -0.6 * A + 0.15 * square - cube / 60.0;
-      A.diagonal().array() += 1.0;
-      before = S;
-      S = A.partialPivLu().solve(right);
-      timing_slopes(window, crossings, n, before, S, ids, out);
+      sensitivity.step(length_of(n), A, B);
+      if (plates.any()) {
+        plates.add(length_of(n), 0.5 * (states_.col(n) + states_.col(n + 1)), sensitivity.mean());
+      }
+      timing_slopes(window, crossings, n, sensitivity.before(), S, ids, out);
+    }
+    if (plates.any()) {
+      forces = plates.mean();
     }
   }
   return out;

@@ -1,4 +1,4 @@
-// The points at which a predicted window is known: its samples, and more of them near the ground.
+// The points at which a predicted window is known: its samples, and points between them.
 #include <algorithm>
 #include <cmath>
 
@@ -20,12 +20,12 @@ void Predictor::begin_nodes(const Window& window) {
   }
 }
 
-void Predictor::add_node(Eigen::Index sample, double part, const Eigen::VectorXd& state) {
+void Predictor::add_node(double time, const Eigen::VectorXd& state) {
   if (nodes_ == states_.cols()) {
     states_.conservativeResize(Eigen::NoChange, 2 * states_.cols());
   }
   states_.col(nodes_++) = state;
-  node_times_.push_back((static_cast<double>(sample) + part) * trial_.period);
+  node_times_.push_back(time);
 }
 
 void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
@@ -34,22 +34,21 @@ void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
     return;
   }
   node_of_sample_.push_back(nodes_);
-  add_node(sample, 0.0, state);
+  add_node(static_cast<double>(sample) * trial_.period, state);
 }
 
 // A foot that is not in the ground but would be there within two samples may meet it in this one.
-int Predictor::pieces_at(Eigen::Index node) {
+bool Predictor::is_near_ground(Eigen::Index node) {
   if (!plant_.meets_ground()) {
-    return 1;
+    return false;
   }
   for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
     const model::FootDepth foot = plant_.foot_depth(static_cast<int>(f), states_.col(node).data());
     if (foot.depth > 0.0 || foot.depth + 2.0 * trial_.period * foot.rate > 0.0) {
-      constexpr double kRounding = 1e-9;
-      return std::max(1, static_cast<int>(std::ceil(trial_.period / options_.contact_piece - kRounding)));
+      return true;
     }
   }
-  return 1;
+  return false;
 }
 
 Eigen::Index Predictor::node_of(Eigen::Index sample) const {
@@ -68,9 +67,13 @@ Eigen::MatrixXd Predictor::predicted_states() const {
   return states;
 }
 
+double Predictor::node_time(Eigen::Index node) const {
+  return node_times_.empty() ? static_cast<double>(node) * trial_.period
+                             : node_times_[static_cast<std::size_t>(node)];
+}
+
 double Predictor::length_of(Eigen::Index node) const {
-  const auto n = static_cast<std::size_t>(node);
-  return node_times_.empty() ? trial_.period : node_times_[n + 1] - node_times_[n];
+  return node_times_.empty() ? trial_.period : node_time(node + 1) - node_time(node);
 }
 
 }  // namespace plumbline::validation

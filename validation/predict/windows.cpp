@@ -31,7 +31,7 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     const model::Sensor& sensor = model.sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
     if (sensor.is_force_plate()) {
-      options_.differences = true;  // a force jumps where the motion bends: see PredictOptions
+      shortest_piece_ = 0.0;
     } else {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
@@ -113,8 +113,8 @@ Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector
   return slopes;
 }
 
-// Near the ground a sample is run in pieces: its force changes much within one. Elsewhere a piece is a
-// sample.
+// Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps
+// are short where it does. Elsewhere a piece is a sample.
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   begin_nodes(window);
   JumpOde ode(plant_, jumps_);
@@ -131,21 +131,20 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   const std::vector<double>& breaks = commands_->breaks();
   constexpr double kBurst = 0.2;  // share of the window: a short stretch may be much stiffer than the mean
   for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
-    const int pieces = pieces_at(nodes_ - 1);
+    const bool in_pieces = is_near_ground(nodes_ - 1);
     for (std::size_t b = 0; b < breaks.size(); ++b) {
       commands_->at(window.first + k, b, ode.command());
       integrator.input_changed(false);
       const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
-      for (int piece = 1; piece < pieces; ++piece) {
-        const double part = breaks[b] + (next - breaks[b]) * piece / pieces;
-        integrator.advance(t0 + (static_cast<double>(k) + part) * trial_.period);
-        add_jumps(integrator.events(), t0, k);
-        add_node(k, part, integrator.state());
+      const double end = t0 + (static_cast<double>(k) + next) * trial_.period;
+      if (in_pieces) {
+        advance_in_pieces(integrator, end, t0);
+      } else {
+        integrator.advance(end);
       }
-      integrator.advance(t0 + (static_cast<double>(k) + next) * trial_.period);
-      add_jumps(integrator.events(), t0, k);
-      if (pieces > 1 && next < 1.0) {
-        add_node(k, next, integrator.state());
+      add_jumps(integrator.events(), t0);
+      if (in_pieces && next < 1.0) {
+        add_node(end - t0, integrator.state());
       }
     }
     add_sample(k + 1, integrator.state());
@@ -157,16 +156,26 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   evaluations_ += integrator.summary().rate_evaluations;
 }
 
+void Predictor::advance_in_pieces(integrate::Integrator& integrator, double end, double t0) {
+  while (integrator.time() < end) {
+    integrator.step(end);
+    const bool jumped = integrator.events().size() > events_seen_;
+    add_jumps(integrator.events(), t0);
+    const bool is_long = integrator.time() - t0 >= node_time(nodes_ - 1) + shortest_piece_;
+    if (!jumped && is_long && integrator.time() < end) {
+      add_node(integrator.time() - t0, integrator.state());
+    }
+  }
+}
+
 void Predictor::average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y) {
   if (!plates.any() || sample == 0) {
     return;
   }
   const Eigen::Index first = node_of(sample - 1);
-  plates.begin(0.0, states_.col(first).data());
-  double time = 0.0;
-  for (Eigen::Index n = first; n < node_of(sample); ++n) {
-    time += length_of(n);
-    plates.add(time, states_.col(n + 1).data());
+  plates.begin(node_time(first), states_.col(first).data());
+  for (Eigen::Index n = first + 1; n <= node_of(sample); ++n) {
+    plates.add(node_time(n), states_.col(n).data());
   }
   plates.write(y.data());
 }

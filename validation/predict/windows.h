@@ -38,11 +38,9 @@ struct PredictOptions {
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
   /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
   integrate::Method method = integrate::Method::explicit_rk;
-  /// Derivatives by differences of whole predictions: slower, but right wherever a touchdown is sharper than
-  /// the pieces of a sample. Always where a force plate was measured, whose force is all in the touchdown.
+  /// Derivatives by differences of whole predictions: slower, and right wherever the linearisation of a piece
+  /// is not.
   bool differences = false;
-  double contact_piece =
-      2.5e-4;       ///< s: longest piece of a sample in which a foot is in the ground or meets it
   int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
@@ -146,14 +144,16 @@ class Predictor {
 
   void run(const Window& window, const Eigen::VectorXd& x0);
   void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
-  void add_jumps(const std::vector<integrate::Event>& events, double t0, Eigen::Index sample);
+  void advance_in_pieces(integrate::Integrator& integrator, double end, double t0);
+  void add_jumps(const std::vector<integrate::Event>& events, double t0);
   void jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
                    const Eigen::VectorXd& steps, Eigen::MatrixXd& S);
   void begin_nodes(const Window& window);
-  void add_node(Eigen::Index sample, double part, const Eigen::VectorXd& state);
+  bool is_near_ground(Eigen::Index node);
+  void add_node(double time, const Eigen::VectorXd& state);  // s after the window's first sample
   void add_sample(Eigen::Index sample, const Eigen::VectorXd& state);
-  int pieces_at(Eigen::Index node);
   Eigen::Index node_of(Eigen::Index sample) const;
+  double node_time(Eigen::Index node) const;  // s after the window's first sample
   double length_of(Eigen::Index node) const;
   void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
   std::vector<Crossing> crossings_of(const Window& window);
@@ -190,7 +190,9 @@ class Predictor {
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   std::vector<int> foot_of_switch_;
-  // Of the last run: states x nodes; a node is a sample or, near the ground and where a force jumps, a point
+  // s; shorter steps are joined. Encoders see what an impact leaves; a plate sees the impact itself.
+  double shortest_piece_ = 2.5e-4;
+  // Of the last run: states x nodes; a node is a sample or, with a ground and where a force jumps, a point
   // between two.
   Eigen::MatrixXd states_;
   Eigen::Index nodes_ = 0;

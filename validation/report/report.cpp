@@ -63,7 +63,7 @@ std::string drawn_name(const ReportContent& content, bool first) {
 
 json forces_json(const Stage& stage, const Data& data) {
   json list = json::array();
-  for (const UnexplainedForce& force : unexplained_forces(fitted(stage), data)) {
+  for (const UnexplainedForce& force : unexplained_forces(stage, data)) {
     list.push_back(to_json(force));
   }
   return list;

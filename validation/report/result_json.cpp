@@ -46,8 +46,11 @@ nlohmann::json to_json(const Finding& finding) {
         {{"effect", rival.name.effect}, {"at", rival.name.at}, {"correlation", rival.correlation}});
   }
   for (const ParameterValue& p : finding.parameters) {
-    json["parameters"].push_back(
-        {{"name", p.name}, {"unit", p.unit}, {"value", p.value}, {"standard_deviation", p.deviation}});
+    json["parameters"].push_back({{"name", p.name},
+                                  {"unit", p.unit},
+                                  {"value", p.value},
+                                  {"standard_deviation", p.deviation},
+                                  {"chosen", p.chosen}});
   }
   return json;
 }
@@ -55,13 +58,10 @@ nlohmann::json to_json(const Finding& finding) {
 }  // namespace
 
 nlohmann::json to_json(const UnexplainedForce& force) {
-  nlohmann::json json{{"trial", force.trial},
-                      {"motor", force.motor},
-                      {"unit", force.unit},
-                      {"rms", force.rms},
-                      {"relative", force.relative},
-                      {"words", force.words},
-                      {"dependences", nlohmann::json::array()}};
+  nlohmann::json json{{"trial", force.trial}, {"at", force.at},
+                      {"of", force.of},       {"unit", force.unit},
+                      {"rms", force.rms},     {"relative", force.relative},
+                      {"words", force.words}, {"dependences", nlohmann::json::array()}};
   for (const Dependence& d : force.dependences) {
     json["dependences"].push_back({{"variable", d.variable},
                                    {"unit", d.unit},

@@ -87,6 +87,15 @@ std::vector<Flight> flights_of(const Trial& trial) {
   return flights;
 }
 
+std::vector<Stance> stances_of(const Trial& trial) {
+  const std::vector<Flight> flights = flights_of(trial);
+  std::vector<Stance> stances;
+  for (std::size_t i = 0; i + 1 < flights.size(); ++i) {
+    stances.push_back({flights[i].end, flights[i + 1].first});
+  }
+  return stances;
+}
+
 std::optional<Flight> flight_at(const Trial& trial, Eigen::Index sample) {
   for (const Flight& flight : flights_of(trial)) {
     if (flight.begins && flight.ends && flight.first <= sample && sample < flight.end) {

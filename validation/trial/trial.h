@@ -107,8 +107,14 @@ struct Flight {
   bool begins = false, ends = false;       ///< within the recording
 };
 
+/// A time on the ground from one flight to the next: first sample, and the first one behind it.
+struct Stance {
+  Eigen::Index first = 0, end = 0;
+};
+
 /// In the order of time, from contact_events: two feet that come down one after the other end one flight.
 std::vector<Flight> flights_of(const Trial& trial);
+std::vector<Stance> stances_of(const Trial& trial);
 
 /// The flight in which a sample lies; empty where a switch is closed, and where the recording does not show
 /// both ends of the flight.

@@ -10,7 +10,7 @@ function drawForces() {
     return;
   }
   $("forces").replaceChildren(...forces.flatMap((force) => [
-    make("h3", {}, `${force.motor}, ${force.trial}`),
+    make("h3", {}, `${force.at}, ${force.trial}`),
     make("p", {}, `${withUnit(force.rms, force.unit, 3)} rms, ${percent(force.relative)} of the recorded force; it ${force.words}.`),
     make("div", { class: "curves" }, force.dependences.map((dependence) => curve(dependence, force))),
   ]));
