@@ -27,6 +27,11 @@ std::string outcome(const Result& result) {
 
 std::string name_of(const Row& row) { return row.effect + "@" + row.at; }
 
+int inside(const Result& result) {
+  return static_cast<int>(std::count_if(result.recovered.begin(), result.recovered.end(),
+                                        [](const Recovered& one) { return one.is_inside(); }));
+}
+
 void add_hidden(const Result& result, const Targets& targets, Summary& summary) {
   ++summary.hidden;
   if (!result.visible) {
@@ -55,6 +60,18 @@ nlohmann::json to_json(const Count& count) {
   return {{"of", count.of}, {"met", count.met}, {"share", count.share()}};
 }
 
+nlohmann::json recovered_json(const Result& r) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Recovered& one : r.recovered) {
+    list.push_back({{"parameter", one.name},
+                    {"true", one.truth},
+                    {"value", one.value},
+                    {"standard_deviation", one.deviation},
+                    {"inside", one.is_inside()}});
+  }
+  return list;
+}
+
 nlohmann::json to_json(const Result& r) {
   return {{"case", r.one.name},
           {"robot", r.one.robot},
@@ -69,7 +86,7 @@ nlohmann::json to_json(const Result& r) {
           {"first_named", r.first},
           {"others_named", r.others},
           {"set_size", r.set_size},
-          {"intervals", {{"asked", r.asked}, {"inside", r.inside}}},
+          {"recovered", recovered_json(r)},
           {"right", r.right},
           {"in_set", r.in_set},
           {"held_out_before", r.before},
@@ -120,8 +137,8 @@ Summary summarise(const std::vector<Result>& results, const Targets& targets) {
     if (!result.error.empty()) {
       continue;
     }
-    summary.intervals.of += result.asked;
-    summary.intervals.met += result.inside;
+    summary.intervals.of += static_cast<int>(result.recovered.size());
+    summary.intervals.met += inside(result);
     if (result.one.kind == Kind::hidden) {
       add_hidden(result, targets, summary);
     } else if (counts(result)) {
@@ -298,8 +315,8 @@ void write_csv(const std::string& file, const std::vector<Result>& results) {
   for (const Result& r : results) {
     out << fmt::format("{},{},{},{},{:.6g},{:d},{},{},{},{},{},{},{:d},{:.6g},{:.6g},{:.3f},{}\n", r.one.name,
                        to_string(r.one.kind), to_string(r.one.strength), quoted(r.with), r.bare, r.visible,
-                       r.verdict, r.first, r.others, r.set_size, r.asked, r.inside, r.right, r.before,
-                       r.after, r.seconds, quoted(r.error));
+                       r.verdict, r.first, r.others, r.set_size, r.recovered.size(), inside(r), r.right,
+                       r.before, r.after, r.seconds, quoted(r.error));
   }
   close(out, file);
 }

@@ -86,17 +86,13 @@ bool finds(const validation::Finding& finding, const model::EffectUse& truth, st
           }));
 }
 
-/// How many of the fitted values' 95 % intervals hold the true ones.
-void count_intervals(const validation::Finding& finding, const model::EffectUse& truth, Result& result) {
-  constexpr double kDeviations = 1.96;
+void recover(const validation::Finding& finding, const model::EffectUse& truth, Result& result) {
   for (const validation::ParameterValue& fitted : finding.parameters) {
-    if (fitted.chosen) {
-      continue;
+    if (!fitted.chosen) {
+      const auto index = static_cast<std::size_t>(truth.law->parameter_index(fitted.name));
+      result.recovered.push_back(
+          {finding.label() + ":" + fitted.name, truth.values[index].value, fitted.value, fitted.deviation});
     }
-    const int index = truth.law->parameter_index(fitted.name);
-    const double value = truth.values[static_cast<std::size_t>(index)].value;
-    ++result.asked;
-    result.inside += std::abs(fitted.value - value) <= kDeviations * fitted.deviation ? 1 : 0;
   }
 }
 
@@ -147,7 +143,7 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
     }
     for (const model::EffectUse& one : truth.hidden) {
       if (names(one, finding.effect, finding.at) && one.law->declaration().source != "test only") {
-        count_intervals(finding, one, result);
+        recover(finding, one, result);
       }
     }
   }
@@ -177,6 +173,11 @@ void run(const RunOptions& options, Result& result) {
 }
 
 }  // namespace
+
+bool Recovered::is_inside() const {
+  constexpr double kDeviations = 1.96;
+  return std::abs(value - truth) <= kDeviations * deviation;
+}
 
 Result run_case(const Case& one, const RunOptions& options) {
   Result result;

@@ -12,6 +12,13 @@ namespace plumbline::battery {
 constexpr double kVisible = 1.15;      ///< held-out error, in floors, from which an effect must be found
 constexpr std::size_t kMostNames = 2;  ///< a set of more names is no answer
 
+/// A fitted value of a rightly named effect, beside the one that was hidden; SI.
+struct Recovered {
+  std::string name;
+  double truth = 0.0, value = 0.0, deviation = 0.0;
+  bool is_inside() const;  ///< its 95 % interval holds the truth
+};
+
 struct Result {
   Case one;
   std::string with;      ///< what was hidden, as `plumbline twin --with` reads it, joined by spaces
@@ -30,7 +37,7 @@ struct Result {
   double before = 0.0;
   double after = 0.0;  ///< held-out error with all that was accepted
   double seconds = 0.0;
-  int asked = 0, inside = 0;  ///< parameters of rightly named effects; 95 % intervals that hold the truth
+  std::vector<Recovered> recovered;
   std::vector<validation::PairRow> pairs;           ///< tried together
   std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected
   std::string error;                                ///< why the case could not be run; empty otherwise

@@ -4,12 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "simulator/model/robot_file.h"
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/candidates.h"
 #include "validation/diagnose/diagnose.h"
+#include "validation/fit/free_parameters.h"
+#include "validation/predict/deviations.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
@@ -103,6 +107,51 @@ TEST(OwnParameters, AnEffectIsFoundThroughTheScatter) {
   ASSERT_EQ(d.accepted.size(), 1U);
   EXPECT_EQ(d.accepted[0].effect, "coulomb");
   EXPECT_NEAR(d.accepted[0].parameters[0].value, 2e-4, 2e-5);
+}
+
+// Robots whose numbers scatter as their model states: the values at which data and statement together end
+// must lie as far from the true ones as their deviations say. Of 120 intervals of 95 %, 114 +- 2.4.
+TEST(OwnParameters, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const model::Model open = with_stated_errors(pendulum());
+  const std::vector<FreeParameter> parameters = stated_parameters(open, 3.0);
+  const Experiment chirp = read_experiment("tests/robots/pendulum/experiments/chirp.yaml", open);
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  int inside = 0;
+  for (int robot = 0; robot < 30; ++robot) {
+    Eigen::VectorXd truth(static_cast<Eigen::Index>(parameters.size()));
+    for (Eigen::Index p = 0; p < truth.size(); ++p) {
+      const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+      truth[p] = parameter.mean + std::clamp(normal(random), -2.0, 2.0) * parameter.deviation;
+    }
+    const Data data({twin(with_values(open, parameters, truth), chirp, {})}, {});
+    const Stage fitted = fitted_anew({open, parameters, {}}, data);
+    PredictorPool pool(open, data);
+    const Eigen::VectorXd deviations =
+        parameter_deviations(pool, data.all_windows(), parameters, fitted.estimate, nullptr);
+    for (Eigen::Index p = 0; p < truth.size(); ++p) {
+      inside += std::abs(fitted.estimate.theta[p] - truth[p]) < 1.96 * deviations[p] ? 1 : 0;
+    }
+  }
+  EXPECT_GE(inside, 108);
+  EXPECT_LE(inside, 119);
+}
+
+// A locked motor's encoder shows one count throughout, off by up to half of it: no number of samples tells
+// its offset better than that.
+TEST(OwnParameters, ALockedEncoderIsReadOnce) {
+  const Data data = bench_twins({"encoder_offset@mLA:offset=0.0142"});
+  model::Model model = bench();
+  model.effects.push_back(parse_effect("encoder_offset@mLA:offset=0.01", model, effects::Catalogue::all()));
+  const std::vector<FreeParameter> offset = matching(free_parameters(model), {"encoder_offset@mLA:*"});
+  PredictorPool pool(model, data);
+  const Estimate found = gauss_newton(pool, offset, Eigen::VectorXd::Constant(1, 0.01), {}, {8, 1e-6});
+  const Eigen::VectorXd deviations =
+      parameter_deviations(pool, data.windows_of(Role::train), offset, found, nullptr);
+  const double count = model.find_sensor("mLA")->resolution;
+  EXPECT_LT(std::abs(found.theta[0] - 0.0142), 1.96 * deviations[0]);
+  EXPECT_GT(std::abs(found.theta[0] - 0.0142), 0.05 * count);
+  EXPECT_LT(deviations[0], count);
 }
 
 TEST(OwnParameters, OneNumberAloneIsNamedWhereAllOthersAreAsStated) {

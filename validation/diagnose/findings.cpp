@@ -18,12 +18,16 @@ RankRow row_of(const Candidate& candidate) {
   return row;
 }
 
-/// Structural values: the side of a stop.
+/// Structural values of which the law tries more than one: the side of a stop.
 std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
   std::vector<ParameterValue> values;
   const std::vector<effects::Parameter>& parameters = use.law->declaration().parameters;
+  const std::vector<effects::Values> starts = use.law->starts({});
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (parameters[p].structural) {
+    const bool varies = std::any_of(starts.begin(), starts.end(), [&](const effects::Values& start) {
+      return start[p] != starts.front()[p];
+    });
+    if (parameters[p].structural && varies) {
       values.push_back({parameters[p].name, parameters[p].unit, use.values[p].value, 0.0, true});
     }
   }

@@ -11,7 +11,8 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
   for (Rung& rung : diagnosis.ladder) {
     progress("all windows for " + rung.name, 0.9);
     PredictorPool pool(rung.stage.model, all);
-    rung.stage.estimate = gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {}, {8, 1e-3});
+    rung.stage.estimate = gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {},
+                                       {12, 1e-5});  // what the data hardly tell moves last
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;
   for (Finding& finding : diagnosis.accepted) {

@@ -6,6 +6,35 @@
 
 namespace plumbline::validation {
 
+namespace {
+
+bool is_constant(const Measured& channel) { return channel.values.minCoeff() == channel.values.maxCoeff(); }
+
+/// Covariance of the scores' part that comes from readings that never change: one error of one floor for
+/// each.
+Eigen::MatrixXd constant_readings(const Data& data, const std::vector<int>& windows,
+                                  const std::vector<Reduced>& reduced, Eigen::Index n) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t t = 0; t < data.trials.size(); ++t) {
+    for (std::size_t c = 0; c < data.trials[t].measured.size(); ++c) {
+      if (!is_constant(data.trials[t].measured[c])) {
+        continue;
+      }
+      Eigen::VectorXd slope = Eigen::VectorXd::Zero(n);
+      for (std::size_t i = 0; i < windows.size(); ++i) {
+        const bool is_here = data.windows[static_cast<std::size_t>(windows[i])].trial == static_cast<int>(t);
+        if (is_here) {
+          slope += reduced[i].channel_slopes.col(static_cast<Eigen::Index>(c));
+        }
+      }
+      covariance += slope * slope.transpose();
+    }
+  }
+  return covariance;
+}
+
+}  // namespace
+
 Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>& windows,
                                      const std::vector<FreeParameter>& parameters, const Estimate& estimate,
                                      Eigen::MatrixXd* correlation) {
@@ -28,11 +57,15 @@ Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>
     const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
     count += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
   }
-  H.diagonal() += prior(parameters, units, estimate.theta).H;
+  const Eigen::VectorXd known = prior(parameters, units, estimate.theta).H;
+  H.diagonal() += known;
   H.diagonal() *= 1.0 + 1e-12;
   const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
   const double m = static_cast<double>(windows.size());
-  const Eigen::MatrixXd sandwich = inverse * G * inverse * (m / std::max(1.0, m - static_cast<double>(n)));
+  G *= m / std::max(1.0, m - static_cast<double>(n));
+  G.diagonal() += known;
+  G += constant_readings(data, windows, reduced, n);
+  const Eigen::MatrixXd sandwich = inverse * G * inverse;
   const Eigen::MatrixXd white = inverse * (sse / std::max(1.0, count));
   Eigen::VectorXd deviations(n);
   for (Eigen::Index p = 0; p < n; ++p) {

@@ -70,6 +70,8 @@ struct Reduced {
   Eigen::VectorXd square;   ///< sse by channel
   Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta
+  /// J with the initial state projected out, summed over each channel's samples; parameters x channels.
+  Eigen::MatrixXd channel_slopes;
 };
 
 /// One for each window in `windows`; columns are d/d(search)/unit.

@@ -25,7 +25,8 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
 
 // Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
 // compliant ground's force begins and ends at zero, so that nothing jumps at touchdown and lift-off. The
-// rigid parts are those of the middle of the samples that share them.
+// rigid parts are those of a sample's first piece. Held longer they seem to tell apart what the data cannot
+// (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
   if (options_.differences) {
@@ -93,17 +94,13 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
       break;
     }
     plates.begin();
-    if (k % options_.refresh == 0) {
-      const Eigen::Index middle = std::min(k + options_.refresh / 2, window.count - 2);
-      tangent_at(window, middle, node_of(middle), ids, steps, true, A, B);
-    }
     for (Eigen::Index n = node_of(k); n < node_of(k + 1); ++n) {
       for (const JumpNode& jump : jump_nodes_) {
         if (jump.node == n) {
           jump_slopes(jump, ids, steps, S);
         }
       }
-      tangent_at(window, k, n, ids, steps, false, A, B);
+      tangent_at(window, k, n, ids, steps, n == node, A, B);
       sensitivity.step(length_of(n), A, B);
       if (plates.any()) {
         plates.add(length_of(n), 0.5 * (states_.col(n) + states_.col(n + 1)), sensitivity.mean());

@@ -4,6 +4,18 @@
 #include "validation/predict/estimate.h"
 
 namespace plumbline::validation {
+namespace {
+
+/// Of rows that are sorted by sample, then by channel; columns x channels.
+Eigen::MatrixXd sums_by_channel(const Eigen::MatrixXd& rows, Eigen::Index samples, int channels) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows.cols(), channels);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    sums += rows.middleRows(k * channels, channels).transpose();
+  }
+  return sums;
+}
+
+}  // namespace
 
 std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
                             const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
@@ -47,6 +59,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       out.H.triangularView<Eigen::StrictlyUpper>() = out.H.transpose();
       out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
       out.x_slope = R.solve(QtJ);
+      out.channel_slopes = sums_by_channel(Jp - Q.topRows(rows) * QtJ, window.count, predictor.channels());
     });
   });
   return all;

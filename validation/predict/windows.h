@@ -41,7 +41,6 @@ struct PredictOptions {
   /// Derivatives by differences of whole predictions: slower, and right wherever the linearisation of a piece
   /// is not.
   bool differences = false;
-  int refresh = 8;  ///< samples between refreshes of the rigid linearisation
 };
 
 /// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
