@@ -63,8 +63,9 @@ struct Integrator::Impl {
   void record_switches() {
     for (std::size_t i = 0; i < backend->directions().size(); ++i) {
       const int direction = backend->directions()[i];
-      if (direction != 0)
+      if (direction != 0) {
         events.push_back({backend->time(), static_cast<int>(i), direction, backend->state()});
+      }
     }
   }
 

@@ -51,7 +51,7 @@ Quantity read_parameter(const YamlNode& node, const Model& model, const EffectUs
   QuantityRule rule;
   rule.unit = parameter_unit(model, *use.law, use.at, index);
   rule.infinity = std::isinf(parameter.null_value);
-  const Quantity quantity = read_quantity(node, rule);
+  Quantity quantity = read_quantity(node, rule);
   check_bounds(node.at("value"), parameter, quantity);
   return quantity;
 }
@@ -172,6 +172,7 @@ void replace_values(const YamlNode& map, Model& model) {
                                     [&](const NamedParameter& known) { return known.name == wanted; });
     if (found == named.end()) {
       std::vector<std::string> names;
+      names.reserve(named.size());
       for (const NamedParameter& known : named) {
         names.push_back(known.name);
       }

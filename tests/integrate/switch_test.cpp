@@ -45,6 +45,27 @@ TEST_P(Switches, OfARelayAreWhereTheParabolasEnd) {
   EXPECT_NEAR(integrator.state()[0], std::sqrt(2.0) * t - 0.5 * t * t, 1e-8);
 }
 
+TEST_P(Switches, AreFoundStepByStepToo) {
+  Relay relay;
+  Integrator whole(relay, with(GetParam(), 1e-8));
+  whole.start(0.0, Eigen::Vector2d(1.0, 0.0));
+  whole.advance(10.0);
+  Integrator single(relay, with(GetParam(), 1e-8));
+  single.start(0.0, Eigen::Vector2d(1.0, 0.0));
+  int calls = 0;
+  while (single.time() < 10.0) {
+    const double before = single.time();
+    single.step(10.0);
+    ASSERT_GT(single.time(), before);
+    ++calls;
+  }
+  EXPECT_EQ(single.time(), 10.0);
+  EXPECT_EQ(single.events().size(), 4U);
+  EXPECT_GT(calls, 4);
+  EXPECT_LE(calls, single.summary().steps);
+  EXPECT_NEAR((single.state() - whole.state()).norm(), 0.0, 1e-6);
+}
+
 /// cos and sin, watched at several levels at once; nothing changes in the rate.
 class Watched : public DrivenOscillator {
  public:

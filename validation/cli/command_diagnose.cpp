@@ -110,6 +110,7 @@ void print_pairs(const std::vector<PairRow>& pairs) {
   }
   fmt::print("\nTried two at once:\n\n");
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(pairs.size());
   for (const PairRow& r : pairs) {
     rows.push_back({r.first.label(), r.second.label(), fmt::format("{:.3f}", r.train_after),
                     fmt::format("{:.3f}", r.held_out_after), r.remark});
@@ -124,6 +125,7 @@ void print_own_parameters(const std::vector<OwnParameter>& parameters) {
   }
   fmt::print("\nThe model's own numbers, within what is stated of them:\n\n");
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(parameters.size());
   for (const OwnParameter& p : parameters) {
     rows.push_back({p.label, fmt::format("{:.4g} +- {:.2g} {}", p.stated, p.stated_deviation, p.unit),
                     fmt::format("{:.4g}", p.value), fmt::format("{:+.1f}", p.shift())});
