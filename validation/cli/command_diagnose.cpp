@@ -72,9 +72,8 @@ void print_verdict(const Diagnosis& diagnosis) {
     fmt::print("{}\n", validation::finding_sentences(finding, diagnosis.verdict));
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
-      fmt::print("  {} = {:.4g} ", p.name, p.value);
-      fmt::print("{}{}\n", p.chosen ? "(chosen)" : fmt::format("+- {:.2g} ", p.deviation),
-                 p.chosen ? "" : p.unit);
+      const std::string how = p.chosen ? "(chosen)" : fmt::format("+- {:.2g} {}", p.deviation, p.unit);
+      fmt::print("  {} = {:.4g} {}\n", p.name, p.value, how);
     }
     if (!finding.rivals.empty()) {
       fmt::print("  These data cannot tell it from:");

@@ -21,7 +21,7 @@ struct UnexplainedForce {
 
 /// Of the stage's model with the values that were fitted. For every trial and motor for which the inverse
 /// model exists (no hidden states, every position measured): recorded minus needed force (inverse_model),
-/// low- passed, about its mean. For every force plate: measured minus predicted force while a foot is on the
+/// low-passed, about its mean. For every force plate: measured minus predicted force while a foot is on the
 /// ground (throughout, where no contact switch shows that), against the predicted motion of the coordinate
 /// that it follows best, and against the predicted force as its load.
 std::vector<UnexplainedForce> unexplained_forces(const Stage& stage, const Data& data);

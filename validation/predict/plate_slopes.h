@@ -11,7 +11,7 @@ namespace plumbline::validation {
 /// d(vertical force)/d(initial state, parameters) of every sensor that is a plate, in N; zero rows for the
 /// others. At one instant, with S = d(state)/d(initial state, parameters),
 ///   dF/dx S + dF/dp,
-/// both by central differences of the plates' forces, no dynamics. The mean over a sample (see
+/// both by differences of the plates' forces, no dynamics. The mean over a sample (see
 /// integrate::PlateMeans) is that of its pieces, each with dF at the piece's middle state and the mean of S
 /// over it: where the ground is stiff the two parts nearly cancel, which they do only if both come from one
 /// linearisation. The last columns of S belong to the parameters.

@@ -59,7 +59,9 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       out.H.triangularView<Eigen::StrictlyUpper>() = out.H.transpose();
       out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
       out.x_slope = R.solve(QtJ);
-      out.channel_slopes = sums_by_channel(Jp - Q.topRows(rows) * QtJ, window.count, predictor.channels());
+      const int channels = predictor.channels();
+      out.channel_slopes = sums_by_channel(Jp, window.count, channels);
+      out.channel_slopes.noalias() -= QtJ.transpose() * sums_by_channel(Q, window.count, channels);
     });
   });
   return all;
