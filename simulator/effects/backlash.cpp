@@ -90,6 +90,7 @@ void Backlash::switches(const Motion& m, const double* p, std::vector<double>& g
                        : p[kStiffness] * std::abs(e) + p[kDamping] * std::copysign(1.0, e) * m.velocity);
 }
 
-int Backlash::jumps(const double* p) const { return !is_null(p) && p[kDamping] > 0.0 ? 2 : 0; }
+// Damping jumps where the surfaces meet, and the slopes there and where they part.
+int Backlash::jumps(const double* p) const { return is_null(p) ? 0 : 3; }
 
 }  // namespace plumbline::effects

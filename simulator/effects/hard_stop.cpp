@@ -99,8 +99,6 @@ void HardStop::switches(const Motion& m, const double* p, std::vector<double>& g
   g.push_back(d > 0.0 && p[kRounding] <= 0.0 ? p[kSide] * m.velocity : 1.0);
 }
 
-int HardStop::jumps(const double* p) const {
-  return p[kDamping] > 0.0 || p[kRootDamping] > 0.0 ? 1 : 0;
-}
+int HardStop::jumps(const double* p) const { return p[kDamping] > 0.0 || p[kRootDamping] > 0.0 ? 1 : 0; }
 
 }  // namespace plumbline::effects

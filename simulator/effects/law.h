@@ -104,8 +104,9 @@ class ForceLaw : public Law {
   virtual void state_rate(const Motion& m, const double* state, const double* p, double* rate) const;
   /// Switching functions: the law is smooth between their zeros. Appended to `g`; always the same number.
   virtual void switches(const Motion& m, const double* p, std::vector<double>& g) const;
-  /// At the zeros of how many of them, the first ones, the force itself jumps: contacts whose damping acts at
-  /// once. They are functions of the position and the parameters.
+  /// At the zeros of how many of them, the first ones, the force or its slope jumps so that a linearisation
+  /// must not reach across: stops and play. Where the force itself jumps they are functions of the position
+  /// and the parameters.
   virtual int jumps(const double* p) const;
 };
 

@@ -1,5 +1,6 @@
 #include "simulator/effects/unilateral_spring.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -10,7 +11,8 @@ namespace {
 
 enum Index : std::size_t { kStiffness, kPreload, kRest, kSide, kSmoothingLength };
 
-constexpr double kSmoothingShare = 1e-3;  // of the motion
+/// What samples can show of the deflection over which the preload builds up: the way between two of them.
+double resolution(const Scales& s) { return std::max(1e-3 * s.position, s.velocity * s.period); }
 
 double deflection(const Motion& m, const double* p) { return p[kSide] * (m.position - p[kRest]); }
 
@@ -39,7 +41,7 @@ const Declaration& UnilateralSpring::declaration() const {
 
 Values UnilateralSpring::typical(const Scales& scales) const {
   const Scales s = guarded(scales);
-  return {s.force / s.position, s.force, s.position, 1.0, kSmoothingShare * s.position};
+  return {s.force / s.position, s.force, s.position, 1.0, resolution(s)};
 }
 
 std::vector<Values> UnilateralSpring::starts(const Scales& scales) const {
@@ -50,7 +52,7 @@ std::vector<Values> UnilateralSpring::starts(const Scales& scales) const {
       Values p = null_values();
       p[kRest] = s.center + share * s.position;
       p[kSide] = side;
-      p[kSmoothingLength] = kSmoothingShare * s.position;
+      p[kSmoothingLength] = resolution(s);
       grid.push_back(p);
     }
   }

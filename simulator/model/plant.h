@@ -287,7 +287,8 @@ class Plant {
   void parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
                          ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
   void force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
-                               const effects::Values& moved, double step, Eigen::Ref<Eigen::VectorXd> column);
+                               ParameterId id, const effects::Values& moved, double step,
+                               Eigen::Ref<Eigen::VectorXd> column);
   void actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
                                   const double* x, const Eigen::MatrixXd& A, effects::Values moved,
                                   double step, Eigen::Ref<Eigen::VectorXd> column);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "simulator/effects/parameters.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -181,29 +182,40 @@ void Plant::structure_tangent(const double* x, ParameterId id, double step, bool
   column.segment(nz_, nz_) = -factor_.solve(found->dM * acceleration_ + found->dh);
 }
 
-// A force that turns with the velocity's sign within the sample is averaged over it.
+// A force that turns with the velocity's sign within the sample is averaged over it. To move the rest that a
+// law measures from is to move the place the other way: as wide as the sample, so that a sharp knee counts
+// with its mean slope, as in force_tangent.
 void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
-                                    const effects::Values& moved, double step,
+                                    ParameterId id, const effects::Values& moved, double step,
                                     Eigen::Ref<Eigen::VectorXd> column) {
-  const double* p0 = values(slot.effect);
+  const effects::Declaration& declaration = slot.law->declaration();
+  const bool rest = effects::is_rest(declaration.parameters[static_cast<std::size_t>(id.parameter)]);
+  const double* here = values(slot.effect);
+  const double* there = rest ? here : moved.data();
   const double* s = slot.state >= 0 ? x + slot.state : nullptr;
   const int states = slot.state >= 0 ? slot.law->state_count() : 0;
   const effects::Motion mean = motion(slot, x);
   const effects::Motion half = half_change(slot, sample.change);
   const int parts = std::abs(half.velocity) > std::abs(mean.velocity) ? kPartsOfTurn : 1;
+  const double reach =
+      rest ? std::max(1e-6 * (1.0 + std::abs(mean.position)), std::abs(half.position) / parts) : 0.0;
+  const double width = (rest ? 2.0 * reach : step) * parts;
   Eigen::VectorXd up(states);
   Eigen::VectorXd now(states);
   double force = 0.0;
   for (int i = 0; i < parts; ++i) {
     const double share = (2.0 * i + 1.0) / parts - 1.0;
-    const effects::Motion at{mean.position + share * half.position, mean.velocity + share * half.velocity,
-                             mean.load};
-    const double before = slot.active ? slot.law->force(at, s, p0) : 0.0;
-    force += (slot.law->force(at, s, moved.data()) - before) / (step * parts);
+    effects::Motion at{mean.position + share * half.position + reach, mean.velocity + share * half.velocity,
+                       mean.load};
+    const double before = slot.active ? slot.law->force(at, s, here) : 0.0;
     if (states > 0) {
-      slot.law->state_rate(at, s, moved.data(), up.data());
-      slot.law->state_rate(at, s, p0, now.data());
-      column.segment(slot.state, states) += (up - now) / (step * parts);
+      slot.law->state_rate(at, s, here, now.data());
+    }
+    at.position -= 2.0 * reach;
+    force += (slot.law->force(at, s, there) - before) / width;
+    if (states > 0) {
+      slot.law->state_rate(at, s, there, up.data());
+      column.segment(slot.state, states) += (up - now) / width;
     }
   }
   column.segment(nz_, nz_) = factor_.solve(slot.line.reduced) * force;
@@ -249,7 +261,7 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
   moved[static_cast<std::size_t>(id.parameter)] += step;
   for (const ForceSlot& slot : forces_) {
     if (slot.effect == id.effect && (slot.law->state_count() == 0 || slot.state >= 0)) {
-      force_parameter_tangent(slot, sample, x, moved, step, column);
+      force_parameter_tangent(slot, sample, x, id, moved, step, column);
       return;
     }
   }

@@ -53,7 +53,7 @@ std::string skeleton_path(const YamlNode& node) {
   if (extension != ".sdf" && extension != ".urdf") {
     node.refuse("a file name that ends in .sdf or .urdf");
   }
-  const std::string path = beside(node.file(), node.text());
+  std::string path = beside(node.file(), node.text());
   std::error_code missing;
   if (!fs::is_regular_file(path, missing)) {
     node.refuse(quote(node.text()) + ", where there is no file",

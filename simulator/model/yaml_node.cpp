@@ -68,8 +68,8 @@ std::optional<double> infinity_of(const std::string& text) {
 
 std::string quote(const std::string& text) { return "\"" + text + "\""; }
 
-YamlNode::YamlNode(YAML::Node node, std::string file, int line, std::string key)
-    : node_(std::move(node)), file_(std::move(file)), line_(line), key_(std::move(key)) {}
+YamlNode::YamlNode(const YAML::Node& node, std::string file, int line, std::string key)
+    : node_(node), file_(std::move(file)), line_(line), key_(std::move(key)) {}
 
 YamlNode YamlNode::load(const std::string& path) { return parse(read_text(path), path); }
 

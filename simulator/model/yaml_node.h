@@ -51,7 +51,7 @@ class YamlNode {
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
 
  private:
-  YamlNode(YAML::Node node, std::string file, int line, std::string key);
+  YamlNode(const YAML::Node& node, std::string file, int line, std::string key);
   YamlNode child(const YAML::Node& node, int line, const std::string& key) const;
 
   YAML::Node node_;

@@ -17,7 +17,7 @@ constexpr double kDensityOfAluminium = 2700.0;  // kg/m^3
 /// proportions, the mass the size.
 void add_ellipsoid(const model::Body& body, int index, const Color& color, std::vector<Part>& parts) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body.inertia);
-  const Eigen::Vector3d I = principal.eigenvalues();
+  const Eigen::Vector3d& I = principal.eigenvalues();
   const Eigen::Vector3d squares =
       (2.5 / body.mass * (Eigen::Vector3d::Constant(I.sum()) - 2.0 * I)).cwiseMax(1e-6);
   Eigen::Vector3d radii = squares.cwiseSqrt();
@@ -116,6 +116,7 @@ void add_rod(const Stick& stick, double radius, const Color& color, std::vector<
 std::vector<Eigen::Vector3d> corners_of(const Part& part) {
   const Eigen::AlignedBox3d box = box_of(part.solid);
   std::vector<Eigen::Vector3d> corners;
+  corners.reserve(8);
   for (int k = 0; k < 8; ++k) {
     corners.push_back(part.X_BP * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
   }

@@ -95,6 +95,7 @@ std::string nearest_names(const std::string& given, const std::vector<std::strin
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;
+  names.reserve(near.size());
   for (const auto& [distance, name] : near) {
     names.push_back(name);
   }

@@ -1,5 +1,7 @@
 #include "tests/battery/cases.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -55,7 +57,7 @@ const Row& find_row(const std::vector<Row>& rows, const std::string& name) {
 void add_removed(const std::string& robot, const std::vector<Row>& rows, std::vector<Case>& cases) {
   for (const Removal& removal : leg_bench_removals()) {
     const std::string name = removal.effect + "@" + removal.at;
-    cases.push_back({robot + "/removed/" + name,
+    cases.push_back({fmt::format("{}/removed/{}", robot, name),
                      robot,
                      Kind::removed,
                      Strength::strong,
@@ -67,7 +69,7 @@ void add_removed(const std::string& robot, const std::vector<Row>& rows, std::ve
 void add_pairs(const std::string& robot, const std::vector<Row>& rows, const std::vector<Pair>& pairs,
                std::vector<Case>& cases) {
   for (const auto& [one, other] : pairs) {
-    cases.push_back({robot + "/pair/" + one + "+" + other,
+    cases.push_back({fmt::format("{}/pair/{}+{}", robot, one, other),
                      robot,
                      Kind::pair,
                      Strength::medium,

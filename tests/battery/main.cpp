@@ -57,6 +57,7 @@ std::vector<Case> subset(const std::vector<Case>& cases, std::size_t count, std:
   order.resize(count);
   std::sort(order.begin(), order.end());
   std::vector<Case> some;
+  some.reserve(count);
   for (const std::size_t i : order) {
     some.push_back(cases[i]);
   }

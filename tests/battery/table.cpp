@@ -6,6 +6,7 @@ namespace plumbline::battery {
 // about 20 (`battery --bare` shows them). Friction that is smoothed, contacts and stops have fixed numerical
 // constants; positions where a law begins lie inside the motion of the train and of the held-out trials.
 
+// NOLINTNEXTLINE(readability-function-size): a table
 const std::vector<Row>& leg_bench_rows() {
   static const std::vector<Row> kRows{
       // The model has viscous friction at its motors, stated within 8 %. What is hidden here is clearly more

@@ -83,8 +83,9 @@ void compare(const std::string& model_file, bool quick) {
   for (const double tolerance : {1e-3, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7}) {
     table.ours(Method::rosenbrock, tolerance);
   }
-  for (const double tolerance : {1e-4, 1e-5, 1e-6})
+  for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
     table.ours(Method::rosenbrock, tolerance, Weight::present);
+  }
   if (quick) return;
   for (const Method method : {Method::implicit_rk, Method::bdf}) {
     for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7}) table.ours(method, tolerance);

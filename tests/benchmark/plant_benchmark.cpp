@@ -125,7 +125,7 @@ void register_seconds() {
     bool keep_history;
   };
   for (const auto& [name, model] :
-       {std::pair("rigid", limits::leg_bench), std::pair("stretched", stretched)}) {
+       {std::pair("rigid", &limits::leg_bench), std::pair("stretched", &stretched)}) {
     for (const Way& way :
          {Way{"explicit_rk", Method::explicit_rk, true}, Way{"implicit_rk", Method::implicit_rk, true},
           Way{"bdf_restarted", Method::bdf, false}, Way{"bdf_history", Method::bdf, true}}) {

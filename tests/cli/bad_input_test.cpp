@@ -485,7 +485,8 @@ INSTANTIATE_TEST_SUITE_P(
                  {"robot/model.yaml/out.json"}},
         BadInput{"too_few_hops_to_settle", {}, {"validate", "robot", "--enough", "3"}, {"--enough"}},
         BadInput{"search_for_nothing", {}, {"hop", kModel, "none.yaml", "--search", "10"}, {"--published"}},
-        BadInput{"speed_is_no_number", {}, {"hop", kModel, "none.yaml", "--speed", "nan"}, {"--speed", "nan"}},
+        BadInput{
+            "speed_is_no_number", {}, {"hop", kModel, "none.yaml", "--speed", "nan"}, {"--speed", "nan"}},
         BadInput{"role_of_nothing", {}, {"hop", kModel, "none.yaml", "--role", "train"}, {"--record"}},
         BadInput{"record_over_a_folder",
                  {},

@@ -47,7 +47,8 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
                                                  "accepted", "ranking", "leads", "ladder"}));
   EXPECT_EQ(json["interrupted"], true);
   ASSERT_GE(json["ladder"].size(), 1U);
-  EXPECT_THAT(keys(json["ladder"][0]), testing::UnorderedElementsAre("name", "train", "held_out", "foretold"));
+  EXPECT_THAT(keys(json["ladder"][0]),
+              testing::UnorderedElementsAre("name", "train", "held_out", "foretold"));
   EXPECT_EQ(json["ladder"][0]["name"], "as given");
   succeed({"check", "found.yaml"});
 }

@@ -173,5 +173,28 @@ INSTANTIATE_TEST_SUITE_P(FastLag, TangentByParameters,
                                               {{"actuator_lag", "mLA", "time_constant", 5e-4, 0.1}}}),
                          [](const auto& chosen) { return chosen.param.label; });
 
+// Within a sample the thigh goes up to 3 mrad: the preload is there at once.
+std::vector<Moved> knee(double share) {
+  return {{"unilateral_spring", "thigh", "stiffness", 1.0, share},
+          {"unilateral_spring", "thigh", "preload", 0.05, share},
+          {"unilateral_spring", "thigh", "rest", 0.3, share}};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    SharpKnee, TangentByParameters,
+    testing::Values(Case{"of_many_samples",
+                         {"unilateral_spring@thigh:stiffness=1,preload=0.05,rest=0.3,side=-1,"
+                          "smoothing_length=0.03"},
+                         knee(0.02)},
+                    Case{"of_a_sample",
+                         {"unilateral_spring@thigh:stiffness=1,preload=0.05,rest=0.3,side=-1,"
+                          "smoothing_length=0.001"},
+                         knee(0.02)},
+                    Case{"within_a_sample",
+                         {"unilateral_spring@thigh:stiffness=1,preload=0.05,rest=0.3,side=-1,"
+                          "smoothing_length=1e-5"},
+                         knee(0.02)}),
+    [](const auto& chosen) { return chosen.param.label; });
+
 }  // namespace
 }  // namespace plumbline::limits

@@ -29,7 +29,7 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
 void continue_refit(Refit& refit, const Data& data, int iterations) {
   PredictorPool pool(refit.extended.model, data);
   refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
-                                {iterations, 2e-3});
+                                {iterations, 2e-3, false});
   refit.extended.theta = refit.estimate.theta;
 }
 

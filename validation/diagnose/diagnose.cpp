@@ -194,7 +194,7 @@ class Diagnoser {
   /// Two effects at once, from the model with nothing added. They are an answer only at the floor: any two
   /// laws help where nothing fits.
   void look_for_pair(Diagnosis& diagnosis) const {
-    if (first_.refits.empty() || is_finished(first_.refits.front().estimate)) {
+    if (first_.refits.empty() || is_finished(first_.refits.front().estimate, data_, options_)) {
       return;
     }
     const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
@@ -205,7 +205,7 @@ class Diagnoser {
     }
     const Choice choice = choose(first_.stage, refits, data_, options_);
     diagnosis.pairs = pair_rows(pairs, choice);
-    if (choice.named < 0) {
+    if (accept_half(pairs, diagnosis) || choice.named < 0) {
       return;
     }
     const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
@@ -213,9 +213,24 @@ class Diagnoser {
     const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
     const bool needed =
         judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
-    if (is_finished(both.estimate) && needed) {
+    if (is_finished(both.estimate, data_, options_) && needed) {
       accept_pair(pairs, choice, single, diagnosis);
     }
+  }
+
+  /// One effect that leaves nothing alone, found beside another.
+  bool accept_half(const std::vector<Pair>& pairs, Diagnosis& diagnosis) const {
+    Tried halves = first_;
+    halves.refits = halves_of(first_, pairs, data_, options_, progress_);
+    const Choice choice = choose(first_.stage, halves.refits, data_, options_);
+    if (choice.named < 0) {
+      return false;
+    }
+    diagnosis.pairs.clear();
+    diagnosis.accepted.clear();
+    diagnosis.ladder.resize(diagnosis.bare_rungs);
+    accept(halves, choice, diagnosis);
+    return true;
   }
 
   void accept_pair(const std::vector<Pair>& pairs, const Choice& choice, const Stage& single,
@@ -241,10 +256,6 @@ class Diagnoser {
     diagnosis.final_stage = after(pair.refit);
     diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage});
     diagnosis.accepted = accepted;
-  }
-
-  bool is_finished(const Estimate& estimate) const {
-    return judged(estimate, data_) < options_.finished && estimate.scores.train < options_.finished;
   }
 
   const effects::Catalogue& catalogue_;

@@ -1,7 +1,11 @@
 #include "validation/diagnose/look_ahead.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
+#include "validation/diagnose/choose.h"
+#include "validation/diagnose/revise.h"
 #include "validation/diagnose/tangents.h"
 
 namespace plumbline::validation {
@@ -76,6 +80,23 @@ void add_followers(const Tried& tried, const Refit& first, const effects::Catalo
   }
 }
 
+std::optional<int> index_of(const Candidate& wanted, const std::vector<Candidate>& candidates) {
+  const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& one) { return one.label() == wanted.label(); });
+  return found == candidates.end() ? std::nullopt
+                                   : std::optional<int>(static_cast<int>(found - candidates.begin()));
+}
+
+/// A fitted stage with one effect more than the stage it began from, as a refit of that effect.
+Refit refit_of(const Stage& fitted, const Stage& before) {
+  Refit refit;
+  refit.extended = {fitted.model, fitted.parameters, fitted.estimate.theta};
+  refit.estimate = fitted.estimate;
+  refit.added = {static_cast<int>(fitted.model.effects.size()) - 1};
+  refit.own = static_cast<int>(fitted.parameters.size() - before.parameters.size());
+  return refit;
+}
+
 }  // namespace
 
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
@@ -127,6 +148,40 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
   }
   sort_and_join(pairs);
   return pairs;
+}
+
+bool is_finished(const Estimate& estimate, const Data& data, const DiagnoseOptions& options) {
+  return judged(estimate, data) < options.finished && estimate.scores.train < options.finished;
+}
+
+std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs, const Data& data,
+                             const DiagnoseOptions& options, const Progress& progress) {
+  constexpr std::size_t kBest = 3;
+  std::vector<Refit> halves;
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < std::min(kBest, pairs.size()); ++i) {
+    const Pair& pair = pairs[i];
+    if (!is_finished(pair.refit.estimate, data, options)) {
+      continue;
+    }
+    for (const Candidate* half : {&pair.first, &pair.second}) {
+      const int other = half == &pair.first ? pair.refit.added.back() : pair.refit.added.front();
+      const std::optional<int> candidate = index_of(*half, tried.candidates);
+      if (!candidate || !seen.insert(half->label()).second) {
+        continue;
+      }
+      progress("refitting " + half->label() + " alone", 0.9);
+      Refit alone = refit_of(fitted_anew(without_effect(after(pair.refit), other), data), tried.stage);
+      alone.candidate = *candidate;
+      const double kept = (1.0 - options.material) * judged(alone.estimate, data);
+      if (is_finished(alone.estimate, data, options) && kept <= judged(pair.refit.estimate, data)) {
+        halves.push_back(std::move(alone));
+      }
+    }
+  }
+  std::stable_sort(halves.begin(), halves.end(),
+                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  return halves;
 }
 
 }  // namespace plumbline::validation

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/predict/box_least_squares.h"
+
 namespace plumbline::validation {
 
 namespace {
@@ -33,6 +35,14 @@ Eigen::MatrixXd constant_readings(const Data& data, const std::vector<int>& wind
   return covariance;
 }
 
+/// H^-1, of unit diagonal first: how large a column is says nothing of how well it is told from the others.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& H) {
+  const Eigen::VectorXd scale = H.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd unit = scale.asDiagonal() * H * scale.asDiagonal();
+  const Eigen::MatrixXd inverse = unit.completeOrthogonalDecomposition().pseudoInverse();
+  return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
 }  // namespace
 
 Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>& windows,
@@ -57,10 +67,10 @@ Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>
     const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
     count += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
   }
-  const Eigen::VectorXd known = prior(parameters, units, estimate.theta).H;
+  const Eigen::VectorXd known =
+      prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
   H.diagonal() += known;
-  H.diagonal() *= 1.0 + 1e-12;
-  const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = inverse_of(H);
   const double m = static_cast<double>(windows.size());
   G *= m / std::max(1.0, m - static_cast<double>(n));
   G.diagonal() += known;

@@ -39,6 +39,7 @@ struct Estimate {
 struct EstimateOptions {
   int iterations = 12;
   double tolerance = 1e-4;  ///< relative change of the cost at which it stops
+  bool by_parts = true;     ///< gauss_newton: with stops or play also on the windows' beginnings first
 };
 
 /// Ceres: minimises the squared residuals of the train windows over theta (within bounds) and each window's
@@ -51,8 +52,11 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 /// The estimate with what is known beforehand (Prior), by Gauss-Newton steps on the reduced equations, for
 /// many models in a short time: one pass over the windows gives the step of the parameters and of all initial
 /// states, held-out ones included. Steps that raise the cost are shortened. Stops when a step promises less
-/// than options.tolerance of the cost. Throws std::runtime_error when the model cannot be integrated from the
-/// start values.
+/// than options.tolerance of the cost. With stops or play the error over a long window has many minima:
+/// initial states come from the windows' first tenth, then a fifth and a half of them, each from where the
+/// one before ended; and where the error then stays above the floor, the parameters too, if that is better.
+/// Throws std::runtime_error when
+/// the model cannot be integrated from the start values.
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);
@@ -67,6 +71,7 @@ struct Reduced {
   Eigen::VectorXd g;
   double sse = 0.0;      ///< after the initial state has moved; with how far it is from where it is expected
   double raw_sse = 0.0;  ///< before
+  bool curved = false;   ///< far from linear in where it begins: through contact, stops or play
   Eigen::VectorXd square;   ///< sse by channel
   Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta

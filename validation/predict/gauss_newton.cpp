@@ -1,7 +1,6 @@
 // Gauss-Newton on the reduced equations of all windows.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
@@ -34,9 +33,15 @@ Point moved(const Point& from, const Step& step, const std::vector<FreeParameter
   return to;
 }
 
-/// A window that runs through touchdown and lift-off is not linear in where it begins.
-bool through_contact(const Data& data, std::size_t w) {
-  return !data.trials[static_cast<std::size_t>(data.windows[w].trial)].switches.empty();
+/// The windows that are not linear in where they begin.
+std::vector<int> curved(const std::vector<Reduced>& reduced) {
+  std::vector<int> some;
+  for (std::size_t w = 0; w < reduced.size(); ++w) {
+    if (reduced[w].curved) {
+      some.push_back(static_cast<int>(w));
+    }
+  }
+  return some;
 }
 
 struct Passes {
@@ -51,15 +56,7 @@ struct Passes {
                std::vector<Reduced>& after);
   void settle(const Eigen::VectorXd& units, Point& point, std::vector<Reduced>& reduced);
   void take_last_step(Point& point, std::vector<Reduced>& reduced);
-  std::vector<int> curved() const;
 };
-
-std::vector<int> Passes::curved() const {
-  std::vector<int> some;
-  std::copy_if(windows.begin(), windows.end(), std::back_inserter(some),
-               [&](int w) { return through_contact(pool.data(), static_cast<std::size_t>(w)); });
-  return some;
-}
 
 /// Steps of the initial states alone, in windows that are not linear in them and whose next step still
 /// promises much. The parameters' step is then that of windows that are at their best.
@@ -67,7 +64,7 @@ void Passes::settle(const Eigen::VectorXd& units, Point& point, std::vector<Redu
   constexpr int kSteps = 6;
   constexpr double kMuch = 0.05;
   constexpr double kShortest = 0.1;
-  std::vector<int> open = curved();
+  std::vector<int> open = curved(reduced);
   std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
   for (int i = 0; i < kSteps; ++i) {
     const auto is_settled = [&](int w) {
@@ -103,7 +100,7 @@ void Passes::shorten(const Point& from, const std::vector<Reduced>& before, cons
                      Point& to, std::vector<Reduced>& after) {
   constexpr int kHalvings = 6;
   const double allowed = parameters.empty() ? 1.0 : 2.0;
-  std::vector<int> worse = curved();
+  std::vector<int> worse = curved(before);
   Point shorter = to;
   for (int i = 0; i < kHalvings; ++i) {
     const auto is_fine = [&](int w) {
@@ -138,7 +135,7 @@ void Passes::take_last_step(Point& point, std::vector<Reduced>& reduced) {
     const auto i = static_cast<std::size_t>(w);
     Reduced& one = reduced[i];
     const Eigen::VectorXd there = point.x0[i] + one.x_shift;
-    if (!through_contact(pool.data(), i) || one.raw_sse <= (1.0 + kMatters) * one.sse) {
+    if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
       point.x0[i] = there;
       return;
     }
@@ -157,12 +154,12 @@ void Passes::take_last_step(Point& point, std::vector<Reduced>& reduced) {
   });
 }
 
-/// Squared residuals of the train windows, with what their initial states' next step promises; through
-/// contact, where a promise is not to be trusted, as they are.
+/// Squared residuals of the train windows, with what their initial states' next step promises; of
+/// curved ones, where a promise is not to be trusted, as they are.
 double train_cost(const Data& data, const std::vector<Reduced>& reduced) {
   double cost = 0.0;
   for (std::size_t w = 0; w < reduced.size(); ++w) {
-    const double one = through_contact(data, w) ? reduced[w].raw_sse : reduced[w].sse;
+    const double one = reduced[w].curved ? reduced[w].raw_sse : reduced[w].sse;
     cost += data.role(w) == Role::train ? one : 0.0;
   }
   return cost;
@@ -231,11 +228,16 @@ bool is_finite(const std::vector<Reduced>& reduced) {
   });
 }
 
-}  // namespace
+bool has_jumps(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+               const Eigen::VectorXd& theta) {
+  bool any = false;
+  pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
+  return any;
+}
 
-Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
-                      const EstimateOptions& options) {
+Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                const EstimateOptions& options) {
   const Data& data = pool.data();
   Passes passes{pool, parameters, data.all_windows()};
   Point here{start, start_x0};
@@ -298,6 +300,48 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   result.predicted = prediction(data, reduced, parameters, here.theta, units);
   result.cost = train_cost(data, reduced) + prior(parameters, units, here.theta).square;
   return result;
+}
+
+/// On longer and longer beginnings of the windows, each from where the one before ended.
+Point after_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at,
+                  const EstimateOptions& options) {
+  for (const Eigen::Index parts : {10, 5, 2}) {
+    const Data data = pool.data().beginnings(parts);
+    PredictorPool short_pool(pool.model(), data);
+    Estimate part = search(short_pool, parameters, at.theta, at.x0, options);
+    at = {std::move(part.theta), std::move(part.x0)};
+  }
+  return at;
+}
+
+/// The parameters with no room to move.
+std::vector<FreeParameter> held(std::vector<FreeParameter> parameters, const Eigen::VectorXd& theta) {
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    parameters[p].lower = parameters[p].upper = theta[static_cast<Eigen::Index>(p)];
+  }
+  return parameters;
+}
+
+}  // namespace
+
+Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                      const EstimateOptions& options) {
+  constexpr double kFits = 1.2;
+  if (!options.by_parts || !has_jumps(pool, parameters, start)) {
+    return search(pool, parameters, start, start_x0, options);
+  }
+  Point from{start, start_x0};
+  if (from.x0.empty()) {
+    from.x0 = after_parts(pool, held(parameters, start), from, {4, 1e-2}).x0;
+  }
+  Estimate direct = search(pool, parameters, start, from.x0, options);
+  if (parameters.empty() || direct.scores.train < kFits) {
+    return direct;
+  }
+  const Point near = after_parts(pool, parameters, from, options);
+  Estimate by_parts = search(pool, parameters, near.theta, near.x0, options);
+  return by_parts.cost < direct.cost ? by_parts : direct;
 }
 
 Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,

@@ -47,8 +47,10 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     ids.push_back(parameter.id);
     const double here = plant_.value(parameter.id);
-    const double reference = std::isfinite(here) && here != 0.0 ? std::abs(here) : parameter.typical;
-    steps[p] = 1e-6 * reference;
+    // Relative to the value, but a value next to nothing must not make the step vanish in it.
+    constexpr double kNothing = 1e-3;
+    const double reference = std::isfinite(here) ? std::abs(here) : 0.0;
+    steps[p] = 1e-6 * (reference > kNothing * parameter.typical ? reference : parameter.typical);
     if (here + steps[p] > parameter.upper) {
       steps[p] = -steps[p];
     }

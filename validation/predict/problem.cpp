@@ -1,5 +1,6 @@
 #include "validation/predict/problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -48,6 +49,16 @@ Data Data::thinned(std::size_t most) const {
     const std::size_t count = std::min(most, all.size());
     for (std::size_t i = 0; i < count; ++i) {
       copy.windows.push_back(windows[static_cast<std::size_t>(all[i * all.size() / count])]);
+    }
+  }
+  return copy;
+}
+
+Data Data::beginnings(Eigen::Index parts) const {
+  Data copy = *this;
+  for (Window& window : copy.windows) {
+    if (trials[static_cast<std::size_t>(window.trial)].switches.empty()) {
+      window.count = std::max<Eigen::Index>(2, window.count / parts);
     }
   }
   return copy;

@@ -35,6 +35,8 @@ struct Data {
   Data(std::vector<Trial> all, const PredictOptions& options);
   /// The same trials with at most `most` windows of each role, spread evenly.
   Data thinned(std::size_t most) const;
+  /// The same windows with the first of `parts` equal parts of each; whole where contact is timed.
+  Data beginnings(Eigen::Index parts) const;
   Role role(std::size_t window) const;
   std::vector<int> all_windows() const;
   std::vector<int> windows_of(Role role) const;

@@ -122,6 +122,9 @@ class Predictor {
   Eigen::Index rows(const Window& window) const;
   /// Sums of squares by channel, then by contact switch.
   Eigen::VectorXd squares(const Window& window, const Eigen::VectorXd& residual) const;
+  /// Is the window predicted last far from linear in where it begins? Through touchdown and lift-off, and
+  /// where the model has stops or play.
+  bool is_curved() const { return !trial_.switches.empty() || !jumps_.empty(); }
   /// Rate evaluations so far.
   long evaluations() const { return evaluations_; }
 

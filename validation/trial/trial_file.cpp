@@ -76,8 +76,8 @@ std::vector<std::pair<std::string, YamlNode>> at_least_one(const YamlNode& node,
 
 Section read_section(const YamlNode& node) {
   node.allow_keys({"from", "to"});
-  Section section{read_physical(node.at("from"), "s", "a time"),
-                        read_physical(node.at("to"), "s", "a time"), node.place()};
+  Section section{read_physical(node.at("from"), "s", "a time"), read_physical(node.at("to"), "s", "a time"),
+                  node.place()};
   if (!(section.to > section.from)) {
     node.at("to").refuse("a time that is not after `from`", "a later one");
   }
