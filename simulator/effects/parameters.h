@@ -26,7 +26,8 @@ Parameter fixed(const std::string& name, const std::string& unit, const std::str
                 double lower, double upper);
 /// The speed below which the sign of a velocity is smoothed, {position}/s.
 Parameter smoothing_speed();
-/// A position from which a law measures: of no effect while the law has no strength; standard value 0.
+/// A position from which a law measures: its force depends on x - rest alone, not on either by itself. Of no
+/// effect while the law has no strength; standard value 0.
 Parameter rest();
 /// Is this the parameter that rest() declares?
 bool is_rest(const Parameter& parameter);

@@ -32,6 +32,23 @@ TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     EXPECT_GE(pairs[i].refit.square(), pairs[i - 1].refit.square());
   }
+  EXPECT_TRUE(halves_of(tried, pairs, data, options, silent).empty());  // neither is enough
+}
+
+TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
+  const Data data = bench_twins({"coulomb@mLS:level=0.003"}).thinned(8);
+  const DiagnoseOptions options;
+  const Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"quadratic", "coulomb"}), {}, data, options, silent);
+  const std::vector<Pair> pairs =
+      look_ahead(tried, some_laws({"quadratic", "coulomb"}), data, options, silent);
+  const std::vector<Refit> halves = halves_of(tried, pairs, data, options, silent);
+  ASSERT_EQ(halves.size(), 1U);
+  const Refit& alone = halves.front();
+  EXPECT_EQ(tried.candidates[static_cast<std::size_t>(alone.candidate)].label(), "coulomb@mLS");
+  EXPECT_EQ(alone.own, 1);
+  EXPECT_NEAR(alone.estimate.theta[0], 0.003, 3e-4);
+  EXPECT_LT(alone.estimate.scores.held_out, 1.1);
 }
 
 TEST(Tangents, PromiseMostForThePairThatIsHidden) {

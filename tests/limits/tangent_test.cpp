@@ -196,5 +196,14 @@ INSTANTIATE_TEST_SUITE_P(
                          knee(0.02)}),
     [](const auto& chosen) { return chosen.param.label; });
 
+// The surfaces meet, part and rattle; where they part only the slopes of the force jump.
+INSTANTIATE_TEST_SUITE_P(Play, TangentByParameters,
+                         testing::Values(Case{"that_rattles",
+                                              {"backlash@leg_shape:gap=0.16,stiffness=20,damping=0.1"},
+                                              {{"backlash", "leg_shape", "gap", 0.1, 0.03},
+                                               {"backlash", "leg_shape", "stiffness", 20.0, 0.03},
+                                               {"backlash", "leg_shape", "damping", 0.1, 0.03}}}),
+                         [](const auto& chosen) { return chosen.param.label; });
+
 }  // namespace
 }  // namespace plumbline::limits

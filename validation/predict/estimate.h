@@ -55,8 +55,7 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 /// than options.tolerance of the cost. With stops or play the error over a long window has many minima:
 /// initial states come from the windows' first tenth, then a fifth and a half of them, each from where the
 /// one before ended; and where the error then stays above the floor, the parameters too, if that is better.
-/// Throws std::runtime_error when
-/// the model cannot be integrated from the start values.
+/// Throws std::runtime_error when the model cannot be integrated from the start values.
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);

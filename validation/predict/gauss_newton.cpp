@@ -228,8 +228,13 @@ bool is_finite(const std::vector<Reduced>& reduced) {
   });
 }
 
-bool has_jumps(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-               const Eigen::VectorXd& theta) {
+/// Has the model stops or play, and are there windows that can be shortened?
+bool comes_in_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                    const Eigen::VectorXd& theta) {
+  const std::vector<Trial>& trials = pool.data().trials;
+  if (std::all_of(trials.begin(), trials.end(), [](const Trial& one) { return !one.switches.empty(); })) {
+    return false;
+  }
   bool any = false;
   pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
   return any;
@@ -328,7 +333,7 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options) {
   constexpr double kFits = 1.2;
-  if (!options.by_parts || !has_jumps(pool, parameters, start)) {
+  if (!options.by_parts || !comes_in_parts(pool, parameters, start)) {
     return search(pool, parameters, start, start_x0, options);
   }
   Point from{start, start_x0};
@@ -339,9 +344,15 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   if (parameters.empty() || direct.scores.train < kFits) {
     return direct;
   }
-  const Point near = after_parts(pool, parameters, from, options);
-  Estimate by_parts = search(pool, parameters, near.theta, near.x0, options);
-  return by_parts.cost < direct.cost ? by_parts : direct;
+  try {
+    const Point near = after_parts(pool, parameters, from, options);
+    Estimate by_parts = search(pool, parameters, near.theta, near.x0, options);
+    return by_parts.cost < direct.cost ? by_parts : direct;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return direct;  // on that way it cannot be integrated
+  }
 }
 
 Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,

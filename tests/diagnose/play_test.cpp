@@ -1,0 +1,53 @@
+// Fits where the error over a window has many minima, and what is said of values that the data do not see.
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/bench.h"
+#include "validation/diagnose/candidates.h"
+#include "validation/fit/free_parameters.h"
+#include "validation/predict/deviations.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+struct Fitted {
+  model::Model model;
+  std::vector<FreeParameter> parameters;
+  Estimate estimate;
+};
+
+/// The parameters of `effect` fitted from the values it is given with.
+Fitted fitted(const std::string& effect, const std::string& pattern, const Data& data) {
+  Fitted one;
+  one.model = bench();
+  one.model.effects.push_back(parse_effect(effect, one.model, effects::Catalogue::all()));
+  one.parameters = matching(free_parameters(one.model), {pattern});
+  PredictorPool pool(one.model, data);
+  one.estimate = gauss_newton(pool, one.parameters, values_of(one.model, one.parameters), {}, {12, 1e-3});
+  return one;
+}
+
+// Over whole windows alone the fit ends at a gap of 0.151 rad and an error of seven floors.
+TEST(Play, IsFittedFromFarAway) {
+  const Data data = bench_twins({"backlash@leg_shape:gap=0.162,stiffness=117,damping=0.111"}).thinned(6);
+  const Fitted found = fitted("backlash@leg_shape:gap=0.12,stiffness=150,damping=0.2", "backlash@*", data);
+  EXPECT_NEAR(found.estimate.theta[0], 0.162, 0.002);
+  EXPECT_NEAR(found.estimate.theta[1], 117.0, 4.0);
+  EXPECT_NEAR(found.estimate.theta[2], 0.111, 0.005);
+}
+
+// Without a rise of the friction at low speed nothing tells over which speed it fades.
+TEST(Deviations, OfAValueThatNothingTellsAreWide) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.005,smoothing_speed=0.03"}).thinned(6);
+  Fitted found =
+      fitted("stribeck@mLA:level=0.004,rise=0.001,stribeck_speed=4,smoothing_speed=0.03", "stribeck@*", data);
+  found.estimate.theta[1] = 0.0;
+  PredictorPool pool(found.model, data);
+  const Eigen::VectorXd deviations =
+      parameter_deviations(pool, data.windows_of(Role::train), found.parameters, found.estimate, nullptr);
+  EXPECT_GT(deviations[2], 3.0 * found.estimate.theta[2]);
+  EXPECT_LT(deviations[0], 0.1 * found.estimate.theta[0]);
+}
+
+}  // namespace
+}  // namespace plumbline::validation
