@@ -10,6 +10,11 @@
 namespace plumbline::validation {
 namespace {
 
+bool jumps(const model::EffectUse& use) {
+  const auto* law = dynamic_cast<const effects::ForceLaw*>(use.law.get());
+  return law != nullptr && law->jumps(use.numbers().data()) > 0;
+}
+
 Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
                 const Data& data, int iterations) {
   Refit result;
@@ -21,7 +26,10 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   // The promised values decide whether states are added, so the model must hold them before it is built.
   result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
   PredictorPool pool(result.extended.model, data);
-  result.estimate = gauss_newton(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 5e-3});
+  // The way over the windows' beginnings is for the law that is new; what was there has gone it.
+  const bool by_parts = jumps(result.extended.model.effects.back());
+  result.estimate =
+      gauss_newton(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 5e-3, by_parts});
   result.extended.theta = result.estimate.theta;
   return result;
 }
