@@ -39,7 +39,7 @@ struct Data {
   Data beginnings(Eigen::Index parts) const;
   Role role(std::size_t window) const;
   std::vector<int> all_windows() const;
-  std::vector<int> windows_of(Role role) const;
+  std::vector<int> windows_of(Role wanted) const;
   bool has(Role role) const { return !windows_of(role).empty(); }
 };
 
