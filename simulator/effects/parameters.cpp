@@ -5,6 +5,11 @@
 namespace plumbline::effects {
 namespace {
 
+constexpr const char* kRestName = "rest";  // is_rest() is asked at every sample of a linearisation
+
+}  // namespace
+namespace {
+
 constexpr double kStandardSmoothingSpeed = 0.01;  // where no trial gives a better one
 constexpr double kTiny = 1e-12;                   // magnitudes below are taken as "not known"
 
@@ -35,9 +40,9 @@ Parameter smoothing_speed() {
                kStandardSmoothingSpeed, kSmallestPositive, kInfinity);
 }
 
-Parameter rest() { return any("rest", "{position}", "position from which the law measures"); }
+Parameter rest() { return any(kRestName, "{position}", "position from which the law measures"); }
 
-bool is_rest(const Parameter& parameter) { return parameter.name == rest().name; }
+bool is_rest(const Parameter& parameter) { return parameter.name == kRestName; }
 
 Parameter fixed_side() {
   return fixed("side", "1", "+1: acts above the position, -1: acts below it", 1.0, -1.0, 1.0);

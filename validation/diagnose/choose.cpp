@@ -91,6 +91,10 @@ double judged(const Estimate& estimate, const Data& data) {
   return data.has(Role::held_out) ? estimate.predicted.scores.held_out : estimate.scores.train;
 }
 
+bool is_below(double limit, const Estimate& estimate, const Data& data) {
+  return judged(estimate, data) < limit && estimate.scores.train < limit;
+}
+
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options) {
   Choice choice;

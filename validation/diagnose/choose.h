@@ -28,4 +28,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
 /// The error that counts: held-out, as foretold, where there is one.
 double judged(const Estimate& estimate, const Data& data);
 
+/// Are that error and the one on train both below a limit, in floors?
+bool is_below(double limit, const Estimate& estimate, const Data& data);
+
 }  // namespace plumbline::validation

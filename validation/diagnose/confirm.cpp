@@ -175,11 +175,6 @@ std::string unless_unsteady(const Check& check) {
   }
 }
 
-void sort_by_error(std::vector<Refit>& refits) {
-  std::stable_sort(refits.begin(), refits.end(),
-                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
-}
-
 /// Nothing is left to explain by the best (`refits` is sorted).
 bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
   return !refits.empty() && refits.front().square() <= 2.0 * options.finished * options.finished;
@@ -242,6 +237,11 @@ void keep_best_of_each(std::vector<Refit>& refits) {
 }
 
 }  // namespace
+
+void sort_by_error(std::vector<Refit>& refits) {
+  std::stable_sort(refits.begin(), refits.end(),
+                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+}
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,

@@ -24,6 +24,9 @@ struct Refit {
   }
 };
 
+/// Best first; what is equal stays in its order.
+void sort_by_error(std::vector<Refit>& refits);
+
 /// Refits the best hypotheses: a short refit of all, a full one of those that stay near the best.
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,

@@ -15,10 +15,6 @@
 namespace plumbline::validation {
 namespace {
 
-bool at_floor(const Estimate& estimate, const Data& data, const DiagnoseOptions& options) {
-  return judged(estimate, data) < options.at_floor && estimate.scores.train < options.at_floor;
-}
-
 class Diagnoser {
  public:
   Diagnoser(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
@@ -57,7 +53,7 @@ class Diagnoser {
   /// One effect after the other from where the ladder stands.
   void look(int most, Diagnosis& diagnosis) {
     for (int round = 0; round < most; ++round) {
-      if (at_floor(diagnosis.final_stage.estimate, data_, options_) || !step(diagnosis, round)) {
+      if (is_below(options_.at_floor, diagnosis.final_stage.estimate, data_) || !step(diagnosis, round)) {
         break;
       }
     }
@@ -194,7 +190,7 @@ class Diagnoser {
   /// Two effects at once, from the model with nothing added. They are an answer only at the floor: any two
   /// laws help where nothing fits.
   void look_for_pair(Diagnosis& diagnosis) const {
-    if (first_.refits.empty() || is_finished(first_.refits.front().estimate, data_, options_)) {
+    if (first_.refits.empty() || is_below(options_.finished, first_.refits.front().estimate, data_)) {
       return;
     }
     const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
@@ -213,7 +209,7 @@ class Diagnoser {
     const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
     const bool needed =
         judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
-    if (is_finished(both.estimate, data_, options_) && needed) {
+    if (is_below(options_.finished, both.estimate, data_) && needed) {
       accept_pair(pairs, choice, single, diagnosis);
     }
   }

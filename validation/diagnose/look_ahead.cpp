@@ -150,10 +150,6 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
   return pairs;
 }
 
-bool is_finished(const Estimate& estimate, const Data& data, const DiagnoseOptions& options) {
-  return judged(estimate, data) < options.finished && estimate.scores.train < options.finished;
-}
-
 std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs, const Data& data,
                              const DiagnoseOptions& options, const Progress& progress) {
   constexpr std::size_t kBest = 3;
@@ -161,7 +157,7 @@ std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs,
   std::set<std::string> seen;
   for (std::size_t i = 0; i < std::min(kBest, pairs.size()); ++i) {
     const Pair& pair = pairs[i];
-    if (!is_finished(pair.refit.estimate, data, options)) {
+    if (!is_below(options.finished, pair.refit.estimate, data)) {
       continue;
     }
     for (const Candidate* half : {&pair.first, &pair.second}) {
@@ -174,13 +170,12 @@ std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs,
       Refit alone = refit_of(fitted_anew(without_effect(after(pair.refit), other), data), tried.stage);
       alone.candidate = *candidate;
       const double kept = (1.0 - options.material) * judged(alone.estimate, data);
-      if (is_finished(alone.estimate, data, options) && kept <= judged(pair.refit.estimate, data)) {
+      if (is_below(options.finished, alone.estimate, data) && kept <= judged(pair.refit.estimate, data)) {
         halves.push_back(std::move(alone));
       }
     }
   }
-  std::stable_sort(halves.begin(), halves.end(),
-                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+  sort_by_error(halves);
   return halves;
 }
 

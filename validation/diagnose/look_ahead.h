@@ -34,9 +34,6 @@ Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
 std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catalogue, const Data& data,
                              const DiagnoseOptions& options, const Progress& progress);
 
-/// Does nothing of note stay above the floor?
-bool is_finished(const Estimate& estimate, const Data& data, const DiagnoseOptions& options);
-
 /// Where the best pairs leave nothing, either half of them by itself, refitted from its values in the pair:
 /// those that leave nothing alone, and not materially more than the pair. The other half then only helped the
 /// search out of a poor minimum.
