@@ -5,6 +5,12 @@ find_package(Simbody REQUIRED)
 # libSimTKmath exports the names of its own old copy of SUNDIALS, and a linker that meets it first takes them from
 # there. As if they needed Simbody: so CMake puts the static copies before it on every link line.
 foreach(part arkode cvode nvecserial sunmatrixdense sunlinsoldense generic)
+  # Debian's static linear solver asks for the shared matrix, whose names libSimTKmath would then find in its turn.
+  get_target_property(needs SUNDIALS::${part}_static INTERFACE_LINK_LIBRARIES)
+  if(needs)
+    string(REPLACE "_shared" "_static" needs "${needs}")
+    set_property(TARGET SUNDIALS::${part}_static PROPERTY INTERFACE_LINK_LIBRARIES "${needs}")
+  endif()
   set_property(TARGET SUNDIALS::${part}_static APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${Simbody_LIBRARIES})
 endforeach()
 find_package(sdformat12 REQUIRED)

@@ -259,8 +259,9 @@ class Plant {
   void press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const;
   void add_ground(const double* x, Eigen::VectorXd& Q, double* xdot);
   const Eigen::MatrixXd& foot_jacobian(const FootSlot& slot, const Touch& at);
-  void ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A);
-  void foot_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
+  void ground_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
+  void foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
+                    Eigen::Ref<Eigen::MatrixXd> A);
   void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void ground_energetics(const double* x, Energetics& e) const;
   void plate_outputs(const double* x, double* y);

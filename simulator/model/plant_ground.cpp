@@ -149,7 +149,7 @@ const Eigen::MatrixXd& Plant::foot_jacobian(const FootSlot& slot, const Touch& a
 // Forces go to slopes_, rates of bristles to A. Out of the ground bristles straighten, and nothing else.
 // A writable view is passed by value.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
-void Plant::ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+void Plant::ground_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
   if (feet_.empty()) {
     return;
   }
@@ -159,18 +159,26 @@ void Plant::ground_tangent(const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
   for (const FootSlot& slot : feet_) {
     const Touch at = touch(slot);
     foot_jacobian(slot, at);
-    if (at.depth > 0.0) {
-      foot_tangent(slot, at, moved_x_.data(), A);
+    Touch half;
+    if (change != nullptr) {
+      half.depth = -0.5 * foot_J_.row(2).dot(Eigen::Map<const Eigen::VectorXd>(change, nz_));
+      half.velocity.noalias() = 0.5 * foot_J_ * Eigen::Map<const Eigen::VectorXd>(change + nz_, nz_);
+    }
+    if (at.depth + std::abs(half.depth) > 0.0) {
+      foot_tangent(slot, at, half, moved_x_.data(), A);
     }
     bristle_tangent(slot, at, moved_x_.data(), A);
   }
 }
 
-// By depth and by the velocity's three parts.
-void Plant::foot_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+// By depth and by the velocity's three parts, as wide as they change on the way: mean slopes, as in
+// force_tangent.
+void Plant::foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
+                         Eigen::Ref<Eigen::MatrixXd> A) {
   for (int k = 0; k < 4; ++k) {
     const bool by_depth = k == 3;
-    const double step = by_depth ? kDepthStep : kSpeedStep;
+    const double step = by_depth ? std::max(kDepthStep, std::abs(half.depth))
+                                 : std::max(kSpeedStep, std::abs(half.velocity[k]));
     Touch plus = at;
     Touch minus = at;
     (by_depth ? plus.depth : plus.velocity[k]) += step;

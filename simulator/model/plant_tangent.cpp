@@ -56,7 +56,7 @@ void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eig
       force_tangent(slot, x, change, A);
     }
   }
-  ground_tangent(x, A);
+  ground_tangent(x, change, A);
   factor_.solveInPlace(slopes_);
   A.middleRows(nz_, nz_) += slopes_;
 }
@@ -90,7 +90,7 @@ void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* 
     }
   };
   const effects::Motion half = half_change(slot, change);
-  const double dq = std::max(1e-6 * (1.0 + std::abs(at.position)), std::abs(half.position));
+  const double dq = std::max(1e-10 * (1.0 + std::abs(at.position)), std::abs(half.position));
   const double dv = std::max(1e-6 * (1.0 + std::abs(at.velocity)), std::abs(half.velocity));
   add(0, {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load}, 2.0 * dq);
   add(nz_, {at.position, at.velocity + dv, at.load}, {at.position, at.velocity - dv, at.load}, 2.0 * dv);

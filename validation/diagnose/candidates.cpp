@@ -203,13 +203,15 @@ double resting_depth(const model::Model& model, const std::string& foot) {
   return depth;
 }
 
-bool is_fixed_body(const model::Skeleton& skeleton, const std::string& name) {
+/// A link of its own: it moves, and has a mass. What has none carries joints only.
+bool is_moving_mass(const model::Skeleton& skeleton, const std::string& name) {
   for (const model::Joint& joint : skeleton.joints) {
-    if (skeleton.bodies[static_cast<std::size_t>(joint.child)].name == name) {
-      return joint.type == model::JointType::fixed && joint.parent < 0;
+    const model::Body& body = skeleton.bodies[static_cast<std::size_t>(joint.child)];
+    if (body.name == name) {
+      return body.mass > 0.0 && (joint.type != model::JointType::fixed || joint.parent >= 0);
     }
   }
-  return true;
+  return false;
 }
 
 }  // namespace
@@ -228,7 +230,7 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       if (place == Place::sensor && !is_measured(pool.data().trials, at)) {
         continue;
       }
-      if (place == Place::body && is_fixed_body(model.skeleton, at)) {
+      if (place == Place::body && !is_moving_mass(model.skeleton, at)) {
         continue;
       }
       if (place == Place::foot && !changes_ground(model, *law, at)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/predict/jump_surface.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -54,6 +55,7 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
+  begin_inside(plant_, command.data(), from_channels_.deviations(), trial_.period, x);
   plant_.settle(command.data(), x.data());
   return x;
 }

@@ -53,8 +53,8 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 /// many models in a short time: one pass over the windows gives the step of the parameters and of all initial
 /// states, held-out ones included. Steps that raise the cost are shortened. Stops when a step promises less
 /// than options.tolerance of the cost. With stops or play the error over a long window has many minima:
-/// initial states come from the windows' first tenth, then a fifth and a half of them, each from where the
-/// one before ended; and where the error then stays above the floor, the parameters too, if that is better.
+/// initial states come from short beginnings of the windows, then longer ones, each from where the one before
+/// ended; and where the error then stays above the floor, the parameters too, if that is better.
 /// Throws std::runtime_error when the model cannot be integrated from the start values.
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
@@ -78,7 +78,8 @@ struct Reduced {
   Eigen::MatrixXd channel_slopes;
 };
 
-/// One for each window in `windows`; columns are d/d(search)/unit.
+/// One for each window in `windows`; columns are d/d(search)/unit. With empty units the parameters have the
+/// values theta and no columns.
 std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,
                             const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
                             const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units);

@@ -4,15 +4,10 @@
 
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
+#include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
 namespace {
-
-/// Where the search stands: values, initial states and, once reduced, the equations there.
-struct Point {
-  Eigen::VectorXd theta;
-  std::vector<Eigen::VectorXd> x0;
-};
 
 struct Step {
   Eigen::VectorXd delta;           // parameters, search units
@@ -31,127 +26,6 @@ Point moved(const Point& from, const Step& step, const std::vector<FreeParameter
     to.x0[w] += step.x[w];
   }
   return to;
-}
-
-/// The windows that are not linear in where they begin.
-std::vector<int> curved(const std::vector<Reduced>& reduced) {
-  std::vector<int> some;
-  for (std::size_t w = 0; w < reduced.size(); ++w) {
-    if (reduced[w].curved) {
-      some.push_back(static_cast<int>(w));
-    }
-  }
-  return some;
-}
-
-struct Passes {
-  PredictorPool& pool;
-  const std::vector<FreeParameter>& parameters;
-  std::vector<int> windows;
-
-  std::vector<Reduced> reduce_at(const Point& point, const Eigen::VectorXd& units) {
-    return reduce(pool, windows, parameters, point.theta, point.x0, units);
-  }
-  void shorten(const Point& from, const std::vector<Reduced>& before, const Eigen::VectorXd& units, Point& to,
-               std::vector<Reduced>& after);
-  void settle(const Eigen::VectorXd& units, Point& point, std::vector<Reduced>& reduced);
-  void take_last_step(Point& point, std::vector<Reduced>& reduced);
-};
-
-/// Steps of the initial states alone, in windows that are not linear in them and whose next step still
-/// promises much. The parameters' step is then that of windows that are at their best.
-void Passes::settle(const Eigen::VectorXd& units, Point& point, std::vector<Reduced>& reduced) {
-  constexpr int kSteps = 6;
-  constexpr double kMuch = 0.05;
-  constexpr double kShortest = 0.1;
-  std::vector<int> open = curved(reduced);
-  std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
-  for (int i = 0; i < kSteps; ++i) {
-    const auto is_settled = [&](int w) {
-      const auto at = static_cast<std::size_t>(w);
-      return reduced[at].raw_sse <= (1.0 + kMuch) * reduced[at].sse || share[at] < kShortest;
-    };
-    open.erase(std::remove_if(open.begin(), open.end(), is_settled), open.end());
-    if (open.empty()) {
-      return;
-    }
-    Point next = point;
-    for (const int w : open) {
-      const auto at = static_cast<std::size_t>(w);
-      next.x0[at] += share[at] * reduced[at].x_shift;
-    }
-    const std::vector<Reduced> now = reduce(pool, open, parameters, point.theta, next.x0, units);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      const auto at = static_cast<std::size_t>(open[k]);
-      const bool better = now[k].raw_sse < reduced[at].raw_sse;
-      share[at] *= better ? 1.0 : 0.3;
-      if (better) {
-        reduced[at] = now[k];
-        point.x0[at] = next.x0[at];
-      }
-    }
-  }
-}
-
-/// Halves the steps of initial states that made their windows worse, as a touchdown missed or gained does:
-/// the other windows' steps are none of their business. Where the parameters move too, a window may lose a
-/// little.
-void Passes::shorten(const Point& from, const std::vector<Reduced>& before, const Eigen::VectorXd& units,
-                     Point& to, std::vector<Reduced>& after) {
-  constexpr int kHalvings = 6;
-  const double allowed = parameters.empty() ? 1.0 : 2.0;
-  std::vector<int> worse = curved(before);
-  Point shorter = to;
-  for (int i = 0; i < kHalvings; ++i) {
-    const auto is_fine = [&](int w) {
-      const auto at = static_cast<std::size_t>(w);
-      return after[at].raw_sse <= allowed * before[at].raw_sse;
-    };
-    worse.erase(std::remove_if(worse.begin(), worse.end(), is_fine), worse.end());
-    if (worse.empty()) {
-      return;
-    }
-    for (const int w : worse) {
-      const auto at = static_cast<std::size_t>(w);
-      shorter.x0[at] = 0.5 * (shorter.x0[at] + from.x0[at]);
-    }
-    const std::vector<Reduced> now = reduce(pool, worse, parameters, to.theta, shorter.x0, units);
-    for (std::size_t k = 0; k < worse.size(); ++k) {
-      const auto at = static_cast<std::size_t>(worse[k]);
-      if (!(after[at].raw_sse <= now[k].raw_sse)) {
-        after[at] = now[k];
-        to.x0[at] = shorter.x0[at];
-      }
-    }
-  }
-}
-
-/// The equations at hand promise one more step of every initial state. Where it would still matter it is
-/// tried: taken when the window is the better for it, and its residuals are those that are there, not the
-/// promised.
-void Passes::take_last_step(Point& point, std::vector<Reduced>& reduced) {
-  constexpr double kMatters = 1e-3;
-  parallel_for(static_cast<int>(reduced.size()), pool.data().threads, [&](int w) {
-    const auto i = static_cast<std::size_t>(w);
-    Reduced& one = reduced[i];
-    const Eigen::VectorXd there = point.x0[i] + one.x_shift;
-    if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
-      point.x0[i] = there;
-      return;
-    }
-    pool.with(w, parameters, point.theta, [&](Predictor& predictor) {
-      const Window& window = pool.data().windows[i];
-      Eigen::VectorXd r = predictor.residual(window, there);
-      one.sse = r.squaredNorm() + predictor.anchor(window, there, r).r.squaredNorm();
-      if (one.sse < one.raw_sse) {
-        point.x0[i] = there;
-      } else {
-        r = predictor.residual(window, point.x0[i]);
-        one.sse = one.raw_sse;
-      }
-      one.square = predictor.squares(window, r);
-    });
-  });
 }
 
 /// Squared residuals of the train windows, with what their initial states' next step promises; of
@@ -228,55 +102,79 @@ bool is_finite(const std::vector<Reduced>& reduced) {
   });
 }
 
-/// Has the model stops or play, and are there windows that can be shortened?
-bool comes_in_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                    const Eigen::VectorXd& theta) {
-  const std::vector<Trial>& trials = pool.data().trials;
-  if (std::all_of(trials.begin(), trials.end(), [](const Trial& one) { return !one.switches.empty(); })) {
-    return false;
-  }
+/// Has the model stops or play?
+bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                 const Eigen::VectorXd& theta) {
   bool any = false;
   pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
   return any;
 }
 
-Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
-                const EstimateOptions& options) {
-  const Data& data = pool.data();
-  Passes passes{pool, parameters, data.all_windows()};
-  Point here{start, start_x0};
-  here.x0.resize(data.windows.size());
-  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
-    const auto i = static_cast<std::size_t>(w);
-    if (here.x0[i].size() == 0) {
-      pool.with(w, parameters, start,
-                [&](Predictor& predictor) { here.x0[i] = predictor.search_start(data.windows[i]); });
-    }
-  });
-  const Eigen::VectorXd units = search_units(parameters, start);
-  std::vector<Reduced> reduced = passes.reduce_at(here, units);
+void expect_finite(const std::vector<Reduced>& reduced) {
   if (!is_finite(reduced)) {
     throw std::runtime_error("the prediction is not finite at the start values");
   }
-  passes.settle(units, here, reduced);
+}
+
+Estimate estimate_at(const Data& data, const Point& point, const std::vector<Reduced>& reduced,
+                     const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units) {
   Estimate result;
+  result.theta = point.theta;
+  result.x0 = point.x0;
+  for (const Reduced& one : reduced) {
+    result.square.push_back(one.square);
+  }
+  result.scores = score(data, result.square);
+  result.predicted = prediction(data, reduced, parameters, point.theta, units);
+  result.cost = train_cost(data, reduced) + prior(parameters, units, point.theta).square;
+  return result;
+}
+/// The parameters as they are.
+Estimate initial_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at,
+                        const EstimateOptions& options) {
+  constexpr int kStepsOfIteration = 6;
+  InitialStates states(pool, parameters, {});
+  states.begin(at);
+  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
+  expect_finite(reduced);
+  states.settle(pool.data().all_windows(), {kStepsOfIteration * options.iterations, options.tolerance}, at,
+                reduced);
+  states.take_last_step(at, reduced);
+  Estimate result = estimate_at(pool.data(), at, reduced, {}, {});
+  result.converged = true;
+  return result;
+}
+
+Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point here,
+                const EstimateOptions& options) {
+  if (parameters.empty()) {
+    return initial_states(pool, parameters, std::move(here), options);
+  }
+  const Data& data = pool.data();
+  const Eigen::VectorXd units = search_units(parameters, here.theta);
+  InitialStates states(pool, parameters, units);
+  states.begin(here);
+  std::vector<Reduced> reduced = states.reduce_at(here);
+  expect_finite(reduced);
+  states.settle(curved(reduced), {}, here, reduced);
   Damping damping;
-  for (result.iterations = 1; result.iterations < options.iterations; ++result.iterations) {
+  bool converged = false;
+  int iterations = 1;
+  for (; iterations < options.iterations && !converged; ++iterations) {
     const Prior known = prior(parameters, units, here.theta);
     const Equations sum = add_up(data, reduced, known);
     const Room bounds = room(parameters, here.theta, units);
     if (promise_of(sum, step_of(sum, reduced, bounds, 0.0)) < options.tolerance) {
-      result.converged = true;
+      converged = true;
       break;
     }
     bool better = false;
     for (int attempt = 0; attempt < kAttempts && !better; ++attempt) {
       Point there = moved(here, step_of(sum, reduced, bounds, damping.value()), parameters, units);
       try {
-        std::vector<Reduced> next = passes.reduce_at(there, units);
-        passes.shorten(here, reduced, units, there, next);
-        passes.settle(units, there, next);
+        std::vector<Reduced> next = states.reduce_at(there);
+        states.shorten(here, reduced, there, next);
+        states.settle(curved(next), {}, there, next);
         const double cost = train_cost(data, next) + prior(parameters, units, there.theta).square;
         if (is_finite(next) &&
             cost < (train_cost(data, reduced) + known.square) * (1.0 + options.tolerance)) {
@@ -295,36 +193,23 @@ Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameter
       break;
     }
   }
-  passes.take_last_step(here, reduced);
-  result.theta = here.theta;
-  result.x0 = here.x0;
-  for (const Reduced& one : reduced) {
-    result.square.push_back(one.square);
-  }
-  result.scores = score(data, result.square);
-  result.predicted = prediction(data, reduced, parameters, here.theta, units);
-  result.cost = train_cost(data, reduced) + prior(parameters, units, here.theta).square;
+  states.take_last_step(here, reduced);
+  Estimate result = estimate_at(data, here, reduced, parameters, units);
+  result.iterations = iterations;
+  result.converged = converged;
   return result;
 }
 
-/// On longer and longer beginnings of the windows, each from where the one before ended.
+/// Parameters and initial states on longer and longer beginnings of the windows.
 Point after_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at,
                   const EstimateOptions& options) {
-  for (const Eigen::Index parts : {10, 5, 2}) {
-    const Data data = pool.data().beginnings(parts);
-    PredictorPool short_pool(pool.model(), data);
-    Estimate part = search(short_pool, parameters, at.theta, at.x0, options);
-    at = {std::move(part.theta), std::move(part.x0)};
+  for (const double share : {0.1, 0.2, 0.5}) {
+    const Data data = pool.data().beginnings(share);
+    PredictorPool part(pool.model(), data);
+    Estimate found = search(part, parameters, at, options);
+    at = {std::move(found.theta), std::move(found.x0)};
   }
   return at;
-}
-
-/// The parameters with no room to move.
-std::vector<FreeParameter> held(std::vector<FreeParameter> parameters, const Eigen::VectorXd& theta) {
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    parameters[p].lower = parameters[p].upper = theta[static_cast<Eigen::Index>(p)];
-  }
-  return parameters;
 }
 
 }  // namespace
@@ -333,20 +218,20 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options) {
   constexpr double kFits = 1.2;
-  if (!options.by_parts || !comes_in_parts(pool, parameters, start)) {
-    return search(pool, parameters, start, start_x0, options);
-  }
   Point from{start, start_x0};
-  if (from.x0.empty()) {
-    from.x0 = after_parts(pool, held(parameters, start), from, {4, 1e-2}).x0;
+  if (!options.by_parts || !has_corners(pool, parameters, start)) {
+    return search(pool, parameters, from, options);
   }
-  Estimate direct = search(pool, parameters, start, from.x0, options);
+  if (from.x0.empty()) {
+    from = states_by_parts(pool, parameters, start);
+  }
+  Estimate direct = search(pool, parameters, from, options);
   if (parameters.empty() || direct.scores.train < kFits) {
     return direct;
   }
   try {
     const Point near = after_parts(pool, parameters, from, options);
-    Estimate by_parts = search(pool, parameters, near.theta, near.x0, options);
+    Estimate by_parts = search(pool, parameters, near, options);
     return by_parts.cost < direct.cost ? by_parts : direct;
   } catch (const Stopped&) {
     throw;

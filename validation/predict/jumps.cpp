@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/predict/jump_surface.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -23,39 +24,18 @@ void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0
 // point; what a glance leaves of dg/dt is not divided by.
 void Predictor::jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
                             const Eigen::VectorXd& steps, Eigen::MatrixXd& S) {
-  constexpr double kHair = 1e-9;
   constexpr double kSlowest = 1e-6;
   const Eigen::Index nx = plant_.states();
   const Eigen::Index nz = plant_.positions();
   const Eigen::VectorXd x = states_.col(at.node);
-  Eigen::VectorXd g(plant_.switch_count());
-  const auto switch_at = [&](const Eigen::VectorXd& state) {
-    plant_.switches(state.data(), g.data());
-    return g[at.jump.index];
-  };
-  const double here = switch_at(x);
-  Eigen::RowVectorXd slope(nz);
-  Eigen::VectorXd moved = x;
-  for (Eigen::Index i = 0; i < nz; ++i) {
-    constexpr double kStep = 1e-6;
-    moved[i] = x[i] + kStep;
-    slope[i] = (switch_at(moved) - here) / kStep;
-    moved[i] = x[i];
-  }
-  const double rate = slope.dot(x.segment(nz, nz));
-  if (std::abs(rate) < kSlowest) {
+  const JumpSurface surface = surface_at(plant_, at.jump.index, x);
+  if (std::abs(surface.rate) < kSlowest) {
     return;
   }
   const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant_.motors());
-  const auto rate_beside = [&](double side) {
-    Eigen::VectorXd beside = x;
-    beside.head(nz) += slope.transpose() * ((side * kHair - here) / slope.squaredNorm());
-    Eigen::VectorXd f(nx);
-    plant_.rate(beside.data(), idle.data(), f.data());
-    return f;
-  };
-  const Eigen::VectorXd jump = rate_beside(at.direction) - rate_beside(-at.direction);
-  Eigen::RowVectorXd later = slope * S.topRows(nz);
+  const Eigen::VectorXd jump = rate_beside(plant_, surface, x, idle.data(), at.direction) -
+                               rate_beside(plant_, surface, x, idle.data(), -at.direction);
+  Eigen::RowVectorXd later = surface.slope * S.topRows(nz);
   for (std::size_t p = 0; p < ids.size(); ++p) {
     if (ids[p].effect != at.jump.effect) {
       continue;
@@ -63,10 +43,10 @@ void Predictor::jump_slopes(const JumpNode& at, const std::vector<model::Paramet
     const auto i = static_cast<Eigen::Index>(p);
     const double value = plant_.value(ids[p]);
     plant_.set_value(ids[p], value + steps[i]);
-    later[nx + i] += (switch_at(x) - here) / steps[i];
+    later[nx + i] += (surface_at(plant_, at.jump.index, x).value - surface.value) / steps[i];
     plant_.set_value(ids[p], value);
   }
-  S += jump * (later / rate);
+  S += jump * (later / surface.rate);
 }
 
 }  // namespace plumbline::validation

@@ -54,12 +54,16 @@ Data Data::thinned(std::size_t most) const {
   return copy;
 }
 
-Data Data::beginnings(Eigen::Index parts) const {
+Data Data::beginnings(double share) const {
   Data copy = *this;
   for (Window& window : copy.windows) {
-    if (trials[static_cast<std::size_t>(window.trial)].switches.empty()) {
-      window.count = std::max<Eigen::Index>(2, window.count / parts);
-    }
+    const Trial& trial = trials[static_cast<std::size_t>(window.trial)];
+    window.count = std::max<Eigen::Index>(2, std::lround(share * static_cast<double>(window.count)));
+    const auto is_behind = [&](int e) {
+      return trial.contact_events[static_cast<std::size_t>(e)].sample >= window.first + window.count;
+    };
+    window.events.erase(std::remove_if(window.events.begin(), window.events.end(), is_behind),
+                        window.events.end());
   }
   return copy;
 }

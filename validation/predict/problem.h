@@ -35,8 +35,8 @@ struct Data {
   Data(std::vector<Trial> all, const PredictOptions& options);
   /// The same trials with at most `most` windows of each role, spread evenly.
   Data thinned(std::size_t most) const;
-  /// The same windows with the first of `parts` equal parts of each; whole where contact is timed.
-  Data beginnings(Eigen::Index parts) const;
+  /// The same windows, of each the first `share` of its length, with the contact events in it.
+  Data beginnings(double share) const;
   Role role(std::size_t window) const;
   std::vector<int> all_windows() const;
   std::vector<int> windows_of(Role wanted) const;

@@ -22,7 +22,8 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
                             const std::vector<Eigen::VectorXd>& x0, const Eigen::VectorXd& units) {
   const Data& data = pool.data();
   std::vector<Reduced> all(windows.size());
-  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
+  const std::vector<FreeParameter> moving = units.size() > 0 ? parameters : std::vector<FreeParameter>();
+  const Eigen::VectorXd slopes = search_slopes(moving, units, theta);
   parallel_for(static_cast<int>(windows.size()), data.threads, [&](int i) {
     const int w = windows[static_cast<std::size_t>(i)];
     Reduced& out = all[static_cast<std::size_t>(i)];
@@ -30,7 +31,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       const Window& window = data.windows[static_cast<std::size_t>(w)];
       const Eigen::VectorXd& given = x0[static_cast<std::size_t>(w)];
       const Eigen::VectorXd start = given.size() > 0 ? given : predictor.initial_state(window);
-      const Linearisation lin = predictor.linearise(window, start, parameters);
+      const Linearisation lin = predictor.linearise(window, start, moving);
       const Predictor::Anchor anchor = predictor.anchor(window, start, lin.r);
       const Eigen::Index nx = start.size();
       const Eigen::Index rows = lin.r.size();
@@ -51,7 +52,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       out.H.setZero(lin.Jp.cols(), lin.Jp.cols());
       out.g.setZero(lin.Jp.cols());
       out.x_slope.setZero(nx, lin.Jp.cols());
-      if (parameters.empty()) {
+      if (moving.empty()) {
         return;  // Eigen's products are not made for matrices without columns
       }
       const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();

@@ -5,12 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
 #include "validation/predict/jump_ode.h"
 
 namespace plumbline::validation {
+namespace {
+
+/// Integrator steps of a sample: a search goes past motions that nothing can follow. An impact takes some
+/// tens at the tolerance of 1e-5; of a method of third order they grow as the tolerance's third root falls.
+long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::cbrt(1e-5 / tolerance)); }
+
+}  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
   plant.set_value(id, value);
@@ -30,9 +38,7 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     sensor_of_channel_.push_back(s);
     const model::Sensor& sensor = model.sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
-    if (sensor.is_force_plate()) {
-      shortest_piece_ = 0.0;
-    } else {
+    if (!sensor.is_force_plate()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
   }
@@ -122,6 +128,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   options.set_tolerance(options_.relative_tolerance);
   options.method = options_.method;
   options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
+  options.max_steps = most_steps_of_sample(options_.relative_tolerance);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
   states_.col(0) = x0;
@@ -157,12 +164,15 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
 }
 
 void Predictor::advance_in_pieces(integrate::Integrator& integrator, double end, double t0) {
+  const long most = integrator.summary().steps + most_steps_of_sample(options_.relative_tolerance);
   while (integrator.time() < end) {
+    if (integrator.summary().steps > most) {
+      throw std::runtime_error("a sample needs more integrator steps than are worth while");
+    }
     integrator.step(end);
     const bool jumped = integrator.events().size() > events_seen_;
     add_jumps(integrator.events(), t0);
-    const bool is_long = integrator.time() - t0 >= node_time(nodes_ - 1) + shortest_piece_;
-    if (!jumped && is_long && integrator.time() < end) {
+    if (!jumped && integrator.time() < end) {
       add_node(integrator.time() - t0, integrator.state());
     }
   }

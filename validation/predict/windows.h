@@ -192,8 +192,6 @@ class Predictor {
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   std::vector<int> foot_of_switch_;
-  // s; shorter steps are joined. Encoders see what an impact leaves; a plate sees the impact itself.
-  double shortest_piece_ = 2.5e-4;
   // Of the last run: states x nodes; a node is a sample or, with a ground and where a force jumps, a point
   // between two.
   Eigen::MatrixXd states_;

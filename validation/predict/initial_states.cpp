@@ -1,0 +1,224 @@
+#include "validation/predict/initial_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace plumbline::validation {
+
+std::vector<int> curved(const std::vector<Reduced>& reduced) {
+  std::vector<int> some;
+  for (std::size_t w = 0; w < reduced.size(); ++w) {
+    if (reduced[w].curved) {
+      some.push_back(static_cast<int>(w));
+    }
+  }
+  return some;
+}
+
+void InitialStates::begin(Point& point) {
+  const Data& data = pool_.data();
+  point.x0.resize(data.windows.size());
+  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    if (point.x0[i].size() == 0) {
+      pool_.with(w, parameters_, point.theta,
+                 [&](Predictor& predictor) { point.x0[i] = predictor.search_start(data.windows[i]); });
+    }
+  });
+}
+
+std::vector<Reduced> InitialStates::reduce_at(const Point& point) {
+  return reduce(pool_, pool_.data().all_windows(), parameters_, point.theta, point.x0, units_);
+}
+
+std::vector<Reduced> InitialStates::reduce_those_that_run(const std::vector<int>& windows,
+                                                          const Point& point) {
+  std::vector<Reduced> all(windows.size());
+  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    try {
+      all[at] = reduce(pool_, {windows[at]}, parameters_, point.theta, point.x0, units_).front();
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      all[at].raw_sse = all[at].sse = std::numeric_limits<double>::infinity();
+    }
+  });
+  return all;
+}
+
+std::vector<Reduced> InitialStates::reduce_some(const std::vector<int>& windows, const Point& point) {
+  std::vector<Reduced> all(pool_.data().windows.size());
+  std::vector<Reduced> some = reduce_those_that_run(windows, point);
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    all[static_cast<std::size_t>(windows[k])] = std::move(some[k]);
+  }
+  return all;
+}
+
+std::vector<Reduced> InitialStates::reduce_or_begin_anew(Point& point) {
+  std::vector<Reduced> all = reduce_those_that_run(pool_.data().all_windows(), point);
+  for (std::size_t w = 0; w < all.size(); ++w) {
+    if (!std::isfinite(all[w].raw_sse)) {
+      point.x0[w].resize(0);
+      begin(point);
+      all[w] = reduce(pool_, {static_cast<int>(w)}, parameters_, point.theta, point.x0, units_).front();
+    }
+  }
+  return all;
+}
+
+void InitialStates::settle(std::vector<int> open, const Settling& settling, Point& point,
+                           std::vector<Reduced>& reduced) {
+  constexpr double kShortest = 0.01;
+  std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
+  for (int i = 0; i < settling.steps; ++i) {
+    const auto is_settled = [&](int w) {
+      const auto at = static_cast<std::size_t>(w);
+      return reduced[at].raw_sse <= (1.0 + settling.much) * reduced[at].sse || share[at] < kShortest;
+    };
+    open.erase(std::remove_if(open.begin(), open.end(), is_settled), open.end());
+    if (open.empty()) {
+      return;
+    }
+    Point next = point;
+    for (const int w : open) {
+      const auto at = static_cast<std::size_t>(w);
+      next.x0[at] += share[at] * reduced[at].x_shift;
+    }
+    const std::vector<Reduced> now = reduce_those_that_run(open, next);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const auto at = static_cast<std::size_t>(open[k]);
+      const bool better = now[k].raw_sse < reduced[at].raw_sse;
+      share[at] = better ? std::min(1.0, 2.0 * share[at]) : 0.3 * share[at];
+      if (better) {
+        reduced[at] = now[k];
+        point.x0[at] = next.x0[at];
+      }
+    }
+  }
+}
+
+void InitialStates::shorten(const Point& from, const std::vector<Reduced>& before, Point& to,
+                            std::vector<Reduced>& after) {
+  constexpr int kHalvings = 6;
+  constexpr double kAllowed = 2.0;
+  std::vector<int> worse = curved(before);
+  Point shorter = to;
+  for (int i = 0; i < kHalvings; ++i) {
+    const auto is_fine = [&](int w) {
+      const auto at = static_cast<std::size_t>(w);
+      return after[at].raw_sse <= kAllowed * before[at].raw_sse;
+    };
+    worse.erase(std::remove_if(worse.begin(), worse.end(), is_fine), worse.end());
+    if (worse.empty()) {
+      return;
+    }
+    for (const int w : worse) {
+      const auto at = static_cast<std::size_t>(w);
+      shorter.x0[at] = 0.5 * (shorter.x0[at] + from.x0[at]);
+    }
+    const std::vector<Reduced> now = reduce_those_that_run(worse, shorter);
+    for (std::size_t k = 0; k < worse.size(); ++k) {
+      const auto at = static_cast<std::size_t>(worse[k]);
+      if (!(after[at].raw_sse <= now[k].raw_sse)) {
+        after[at] = now[k];
+        to.x0[at] = shorter.x0[at];
+      }
+    }
+  }
+}
+
+void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) {
+  constexpr double kMatters = 1e-3;
+  parallel_for(static_cast<int>(reduced.size()), pool_.data().threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    Reduced& one = reduced[i];
+    const Eigen::VectorXd there = point.x0[i] + one.x_shift;
+    if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
+      point.x0[i] = there;
+      return;
+    }
+    pool_.with(w, parameters_, point.theta, [&](Predictor& predictor) {
+      const Window& window = pool_.data().windows[i];
+      const auto cost_at = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
+        try {
+          r = predictor.residual(window, x);
+        } catch (const std::runtime_error&) {
+          return std::numeric_limits<double>::infinity();
+        }
+        return r.squaredNorm() + predictor.anchor(window, x, r).r.squaredNorm();
+      };
+      Eigen::VectorXd r;
+      one.sse = cost_at(there, r);
+      if (one.sse < one.raw_sse) {
+        point.x0[i] = there;
+      } else {
+        one.sse = cost_at(point.x0[i], r);
+      }
+      one.square = predictor.squares(window, r);
+    });
+  });
+}
+
+namespace {
+
+constexpr Settling kRoughly{24, 1e-2};
+
+std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                Point& at) {
+  InitialStates states(pool, parameters, {});
+  states.begin(at);
+  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
+  states.settle(pool.data().all_windows(), kRoughly, at, reduced);
+  states.take_last_step(at, reduced);
+  return reduced;
+}
+
+std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced) {
+  constexpr double kFits = 1.2;
+  std::vector<int> some;
+  for (const int w : data.all_windows()) {
+    const auto i = static_cast<std::size_t>(w);
+    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[i].trial)];
+    const auto residuals =
+        static_cast<double>(data.windows[i].count) * static_cast<double>(trial.measured.size());
+    if (reduced[i].raw_sse > kFits * kFits * residuals) {
+      some.push_back(w);
+    }
+  }
+  return some;
+}
+
+}  // namespace
+
+Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& theta) {
+  Point at{theta, {}};
+  for (const double share : {0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const Data data = pool.data().beginnings(share);
+    PredictorPool part(pool.model(), data);
+    settle_all(part, parameters, at);
+  }
+  const std::vector<Reduced> reduced = settle_all(pool, parameters, at);
+  InitialStates states(pool, parameters, {});
+  const std::vector<int> open = above_floor(pool.data(), reduced);
+  Point direct = at;
+  for (const int w : open) {
+    direct.x0[static_cast<std::size_t>(w)].resize(0);
+  }
+  states.begin(direct);
+  std::vector<Reduced> other = states.reduce_some(open, direct);
+  states.settle(open, kRoughly, direct, other);
+  for (const int w : open) {
+    const auto i = static_cast<std::size_t>(w);
+    if (other[i].raw_sse < reduced[i].raw_sse) {
+      at.x0[i] = direct.x0[i];
+    }
+  }
+  return at;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,69 @@
+// The windows' initial states on the way of a search.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "validation/predict/estimate.h"
+
+namespace plumbline::validation {
+
+/// Where a search stands: values of the parameters, and the initial state of each window.
+struct Point {
+  Eigen::VectorXd theta;
+  std::vector<Eigen::VectorXd> x0;
+};
+
+/// When a window's initial state counts as settled.
+struct Settling {
+  int steps = 6;
+  double much = 0.05;  ///< share of the cost: what the next step promises to take is less
+};
+
+/// Steps of the initial states, each window by itself. With empty units the parameters have the values that
+/// the point gives them and no equations.
+class InitialStates {
+ public:
+  InitialStates(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                const Eigen::VectorXd& units)
+      : pool_(pool), parameters_(parameters), units_(units) {}
+
+  /// Those that are empty: from the measurements.
+  void begin(Point& point);
+  /// The equations of all windows.
+  std::vector<Reduced> reduce_at(const Point& point);
+  /// The same; windows that cannot be integrated from where they are begin anew from the measurements.
+  std::vector<Reduced> reduce_or_begin_anew(Point& point);
+  /// The equations of some windows, in their places among all; of one that cannot be integrated from where it
+  /// is, an infinite cost.
+  std::vector<Reduced> reduce_some(const std::vector<int>& windows, const Point& point);
+  /// Steps of the initial states alone, in those of the `open` windows whose next step still promises much.
+  void settle(std::vector<int> open, const Settling& settling, Point& point, std::vector<Reduced>& reduced);
+  /// Halves the steps of initial states that made their windows worse, as a touchdown missed or gained does:
+  /// the other windows' steps are none of their business. Where the parameters move too, a window may lose a
+  /// little.
+  void shorten(const Point& from, const std::vector<Reduced>& before, Point& to, std::vector<Reduced>& after);
+  /// The equations at hand promise one more step of every initial state. Where it would still matter it is
+  /// tried: taken when the window is the better for it, and its residuals are those that are there, not the
+  /// promised.
+  void take_last_step(Point& point, std::vector<Reduced>& reduced);
+
+ private:
+  std::vector<Reduced> reduce_those_that_run(const std::vector<int>& windows, const Point& point);
+
+  PredictorPool& pool_;
+  const std::vector<FreeParameter>& parameters_;
+  Eigen::VectorXd units_;
+};
+
+/// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
+/// the windows, then longer ones, each from where the one before ended. A window that is above the floor
+/// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
+/// beginning in a way that leads nowhere.
+Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& theta);
+
+/// The windows that are not linear in where they begin.
+std::vector<int> curved(const std::vector<Reduced>& reduced);
+
+}  // namespace plumbline::validation
