@@ -62,23 +62,19 @@ Equations add_up(const Data& data, const std::vector<Reduced>& reduced, const Pr
 
 /// Parameters from (H + damping diag(H)) delta = g within their room, every initial state after them.
 Step step_of(const Equations& sum, const std::vector<Reduced>& reduced, const Room& bounds, double damping) {
-  const bool any = bounds.lower.size() > 0;
   Step step;
-  if (any) {
-    Eigen::MatrixXd H = sum.H;
-    H.diagonal() *= 1.0 + damping;
-    step.delta = box_least_squares(H, sum.g, bounds.lower, bounds.upper);
-  }
+  Eigen::MatrixXd H = sum.H;
+  H.diagonal() *= 1.0 + damping;
+  step.delta = box_least_squares(H, sum.g, bounds.lower, bounds.upper);
   for (const Reduced& one : reduced) {
-    step.x.push_back(any ? Eigen::VectorXd(one.x_shift - one.x_slope * step.delta) : one.x_shift);
+    step.x.push_back(one.x_shift - one.x_slope * step.delta);
   }
   return step;
 }
 
 /// Share of the cost that the linearised windows promise to remove.
 double promise_of(const Equations& sum, const Step& step) {
-  const double gain =
-      step.delta.size() > 0 ? 2.0 * sum.g.dot(step.delta) - step.delta.dot(sum.H * step.delta) : 0.0;
+  const double gain = 2.0 * sum.g.dot(step.delta) - step.delta.dot(sum.H * step.delta);
   return (gain + sum.raw - sum.left) / std::max(sum.left, 1e-300);
 }
 
@@ -160,7 +156,7 @@ Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameter
   Damping damping;
   bool converged = false;
   int iterations = 1;
-  for (; iterations < options.iterations && !converged; ++iterations) {
+  for (; iterations < options.iterations; ++iterations) {
     const Prior known = prior(parameters, units, here.theta);
     const Equations sum = add_up(data, reduced, known);
     const Room bounds = room(parameters, here.theta, units);
@@ -217,7 +213,6 @@ Point after_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options) {
-  constexpr double kFits = 1.2;
   Point from{start, start_x0};
   if (!options.by_parts || !has_corners(pool, parameters, start)) {
     return search(pool, parameters, from, options);

@@ -178,7 +178,6 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
 }
 
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced) {
-  constexpr double kFits = 1.2;
   std::vector<int> some;
   for (const int w : data.all_windows()) {
     const auto i = static_cast<std::size_t>(w);

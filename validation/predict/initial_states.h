@@ -14,6 +14,9 @@ struct Point {
   std::vector<Eigen::VectorXd> x0;
 };
 
+/// Errors below this are at the floor, where there is no other minimum to look for.
+constexpr double kFits = 1.2;
+
 /// When a window's initial state counts as settled.
 struct Settling {
   int steps = 6;
