@@ -5,11 +5,7 @@
 namespace plumbline::effects {
 namespace {
 
-constexpr const char* kRestName = "rest";  // is_rest() is asked at every sample of a linearisation
-
-}  // namespace
-namespace {
-
+constexpr const char* kRestName = "rest";         // is_rest() is asked at every sample of a linearisation
 constexpr double kStandardSmoothingSpeed = 0.01;  // where no trial gives a better one
 constexpr double kTiny = 1e-12;                   // magnitudes below are taken as "not known"
 

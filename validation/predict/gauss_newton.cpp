@@ -125,17 +125,14 @@ Estimate estimate_at(const Data& data, const Point& point, const std::vector<Red
   result.cost = train_cost(data, reduced) + prior(parameters, units, point.theta).square;
   return result;
 }
+
 /// The parameters as they are.
 Estimate initial_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at,
                         const EstimateOptions& options) {
   constexpr int kStepsOfIteration = 6;
-  InitialStates states(pool, parameters, {});
-  states.begin(at);
-  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
+  const std::vector<Reduced> reduced =
+      settle_all(pool, parameters, {kStepsOfIteration * options.iterations, options.tolerance}, at);
   expect_finite(reduced);
-  states.settle(pool.data().all_windows(), {kStepsOfIteration * options.iterations, options.tolerance}, at,
-                reduced);
-  states.take_last_step(at, reduced);
   Estimate result = estimate_at(pool.data(), at, reduced, {}, {});
   result.converged = true;
   return result;

@@ -163,19 +163,19 @@ void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) 
   });
 }
 
-namespace {
-
-constexpr Settling kRoughly{24, 1e-2};
-
 std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                Point& at) {
+                                const Settling& settling, Point& at) {
   InitialStates states(pool, parameters, {});
   states.begin(at);
   std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
-  states.settle(pool.data().all_windows(), kRoughly, at, reduced);
+  states.settle(pool.data().all_windows(), settling, at, reduced);
   states.take_last_step(at, reduced);
   return reduced;
 }
+
+namespace {
+
+constexpr Settling kRoughly{24, 1e-2};
 
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced) {
   std::vector<int> some;
@@ -199,9 +199,9 @@ Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& par
   for (const double share : {0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
     const Data data = pool.data().beginnings(share);
     PredictorPool part(pool.model(), data);
-    settle_all(part, parameters, at);
+    settle_all(part, parameters, kRoughly, at);
   }
-  const std::vector<Reduced> reduced = settle_all(pool, parameters, at);
+  const std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
   InitialStates states(pool, parameters, {});
   const std::vector<int> open = above_floor(pool.data(), reduced);
   Point direct = at;

@@ -59,6 +59,10 @@ class InitialStates {
   Eigen::VectorXd units_;
 };
 
+/// The initial states of all windows, the parameters as they are; the equations there.
+std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                const Settling& settling, Point& at);
+
 /// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
 /// the windows, then longer ones, each from where the one before ended. A window that is above the floor
 /// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
