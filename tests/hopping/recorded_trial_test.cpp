@@ -14,6 +14,7 @@
 #include "validation/hopping/hop_run.h"
 #include "validation/hopping/hopping_file.h"
 #include "validation/predict/estimate.h"
+#include "validation/predict/reach.h"
 
 namespace plumbline::validation {
 namespace {
@@ -86,6 +87,16 @@ TEST_F(RecordedHops, ThePredictionIsAtTheFloorAndWithoutTheCablesStretchFarAbove
 }
 
 // Their encoders show the count 0, which is also the edge.
+// Without the cables' stretch it loses the motion soon after each window's beginning, and no search over the
+// whole of it settles.
+TEST_F(RecordedHops, AreFollowedToTheEndByTheRightModelOnly) {
+  const Data data({trial_}, {});
+  EXPECT_EQ(reach(model_, data), 1.0);
+  EXPECT_LE(reach(mabel("mabel_planar_rigid.yaml"), data), 0.2);
+  EXPECT_EQ(longer_part(0.8), 1.0);
+  EXPECT_EQ(longer_part(0.2), 0.35);
+}
+
 TEST_F(RecordedHops, TheSpringsPulleysBeginInsideTheirStops) {
   const Data data({trial_}, {});
   Predictor predictor(model_, trial_, data.predict);

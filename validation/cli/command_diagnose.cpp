@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
@@ -83,6 +85,10 @@ void print_verdict(const Diagnosis& diagnosis) {
       fmt::print("\n");
     }
   }
+  const std::string part = validation::part_sentence(diagnosis);
+  if (!part.empty()) {
+    fmt::print("{}\n", part);
+  }
   if (diagnosis.accepted.empty() || last.foretold() <= 0.0) {
     return;
   }
@@ -132,15 +138,29 @@ void print_own_parameters(const std::vector<OwnParameter>& parameters) {
   print_table({"parameter", "stated", "fitted", "shift in deviations"}, rows);
 }
 
-void print(const Diagnosis& diagnosis) {
-  print_verdict(diagnosis);
+/// On what part of each window the errors are is said where it is not the whole.
+void print_ladder(const std::vector<validation::Rung>& ladder) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
+  const bool in_parts =
+      std::any_of(ladder.begin(), ladder.end(), [](const validation::Rung& rung) { return rung.part < 1.0; });
+  std::vector<std::string> head{"model", "train", "held-out", "foretold"};
+  if (in_parts) {
+    head.insert(head.begin() + 1, "of each window");
+  }
   std::vector<std::vector<std::string>> rows;
-  for (const validation::Rung& rung : diagnosis.ladder) {
+  for (const validation::Rung& rung : ladder) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out()),
                     fmt::format("{:.3f}", rung.foretold())});
+    if (in_parts) {
+      rows.back().insert(rows.back().begin() + 1, fmt::format("{:.0f} %", 100.0 * rung.part));
+    }
   }
-  print_table({"model", "train", "held-out", "foretold"}, rows);
+  print_table(head, rows);
+}
+
+void print(const Diagnosis& diagnosis) {
+  print_verdict(diagnosis);
+  print_ladder(diagnosis.ladder);
   fmt::print(
       "\nHeld-out: at the values that are best for the train trials. Foretold: with what the train trials "
       "leave open\nof the values; this one decides.\n");

@@ -11,31 +11,73 @@
 #include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/revise.h"
+#include "validation/predict/reach.h"
 
 namespace plumbline::validation {
 namespace {
 
 class Diagnoser {
  public:
-  Diagnoser(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
-            const Progress& progress)
-      : catalogue_(catalogue), data_(data), options_(options), progress_(progress) {}
+  /// `data` are the beginnings of the windows, `part` of their lengths.
+  Diagnoser(const effects::Catalogue& catalogue, const Data& data, double part,
+            const DiagnoseOptions& options, const Progress& progress)
+      : catalogue_(catalogue), data_(data), part_(part), options_(options), progress_(progress) {}
 
   /// With the model's own numbers exactly as stated, and with them free within what is stated of them: the
-  /// first where that gives an answer and the data do not speak for other numbers. Where one effect after the
-  /// other leads nowhere, two at once.
+  /// first where that gives an answer and the data do not speak for other numbers. On beginnings only as
+  /// stated: too short to tell masses and inertias, they would leave them free to stand in for anything.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
+    if (part_ < 1.0) {
+      look(options_.most_effects, diagnosis);
+      return;
+    }
     const Rung given = diagnosis.ladder.front();
     const Stage open = with_open_numbers(given.stage);
     if (open.parameters.empty()) {
       look(options_.most_effects, diagnosis);
     } else {
-      const Rung fitted{"own parameters fitted", fit_own(open)};
+      const Rung fitted{"own parameters fitted", fit_own(open), part_};
       look_with_own_numbers(given, fitted, diagnosis);
     }
-    if (diagnosis.verdict == Verdict::unexplained) {
-      look_for_pair(diagnosis);
+  }
+
+  /// What was named on shorter beginnings, on these; and what else is missing here.
+  void go_on(Diagnosis& diagnosis) {
+    progress_("longer parts of the windows", 0.0);
+    Stage longer = fitted_anew(diagnosis.final_stage, data_);
+    if (!is_below(options_.finished, longer.estimate, data_)) {
+      longer = with_fresh_states(longer);
+    }
+    diagnosis.final_stage = longer;
+    diagnosis.ladder.push_back({"the same further on", std::move(longer), part_});
+    look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
+  }
+
+  /// After run(), where one effect after the other leads nowhere: two effects at once, from the model with
+  /// nothing added. They are an answer only at the floor: any two laws help where nothing fits.
+  void look_for_pair(Diagnosis& diagnosis) const {
+    if (first_.refits.empty() || is_below(options_.finished, first_.refits.front().estimate, data_)) {
+      return;
+    }
+    const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
+    std::vector<Refit> refits;
+    refits.reserve(pairs.size());
+    for (const Pair& pair : pairs) {
+      refits.push_back(pair.refit);
+    }
+    const Choice choice = choose(first_.stage, refits, data_, options_);
+    diagnosis.pairs = pair_rows(pairs, choice);
+    if (accept_half(pairs, diagnosis) || choice.named < 0) {
+      return;
+    }
+    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
+    const Stage both = after(pair.refit);
+    const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
+    const bool needed =
+        judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
+    if (is_below(options_.finished, both.estimate, data_) && needed) {
+      accept_pair(pairs, choice, single, diagnosis);
     }
   }
 
@@ -46,8 +88,18 @@ class Diagnoser {
     stage.model = model;
     PredictorPool pool(model, data_);
     const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
-    diagnosis.ladder.push_back({"as given", {model, {}, given}});
+    diagnosis.ladder.push_back({"as given", {model, {}, given}, part_});
     stage.estimate = given;
+  }
+
+  /// Fitted once more from initial states that were searched anew with the values as they are now: those that
+  /// went along with the values may have stayed behind in a minimum of their own. The better of the two.
+  Stage with_fresh_states(const Stage& fitted) const {
+    Stage fresh{with_values(fitted.model, fitted.parameters, fitted.estimate.theta), fitted.parameters, {}};
+    PredictorPool pool(fresh.model, data_);
+    const Estimate states = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    fresh.estimate = gauss_newton(pool, fresh.parameters, fitted.estimate.theta, states.x0, {10, 1e-4});
+    return judged(fresh.estimate, data_) < judged(fitted.estimate, data_) ? fresh : fitted;
   }
 
   /// One effect after the other from where the ladder stands.
@@ -160,8 +212,10 @@ class Diagnoser {
         diagnosis.leads.push_back(row);
       }
     }
-    if (round == 0) {
+    if (diagnosis.ranking.empty()) {
       diagnosis.ranking = rows;
+    }
+    if (round == 0) {
       first_ = std::move(tried);
     }
     return choice.named >= 0;
@@ -184,34 +238,7 @@ class Diagnoser {
     set_values(next, data_, accepted);
     diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
     diagnosis.accepted = accepted;
-    diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage});
-  }
-
-  /// Two effects at once, from the model with nothing added. They are an answer only at the floor: any two
-  /// laws help where nothing fits.
-  void look_for_pair(Diagnosis& diagnosis) const {
-    if (first_.refits.empty() || is_below(options_.finished, first_.refits.front().estimate, data_)) {
-      return;
-    }
-    const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
-    std::vector<Refit> refits;
-    refits.reserve(pairs.size());
-    for (const Pair& pair : pairs) {
-      refits.push_back(pair.refit);
-    }
-    const Choice choice = choose(first_.stage, refits, data_, options_);
-    diagnosis.pairs = pair_rows(pairs, choice);
-    if (accept_half(pairs, diagnosis) || choice.named < 0) {
-      return;
-    }
-    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
-    const Stage both = after(pair.refit);
-    const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
-    const bool needed =
-        judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
-    if (is_below(options_.finished, both.estimate, data_) && needed) {
-      accept_pair(pairs, choice, single, diagnosis);
-    }
+    diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage, part_});
   }
 
   /// One effect that leaves nothing alone, found beside another.
@@ -248,18 +275,67 @@ class Diagnoser {
     std::vector<Finding> accepted{first, second};
     set_values(after(pair.refit), data_, accepted);
     diagnosis.ladder.resize(diagnosis.bare_rungs);
-    diagnosis.ladder.push_back({"+ " + pair.first.label(), single});
+    diagnosis.ladder.push_back({"+ " + pair.first.label(), single, part_});
     diagnosis.final_stage = after(pair.refit);
-    diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage});
+    diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage, part_});
     diagnosis.accepted = accepted;
   }
 
   const effects::Catalogue& catalogue_;
   const Data& data_;
+  double part_;
   const DiagnoseOptions& options_;
   const Progress& progress_;
   Tried first_;  // the first round from the model that nothing was added to
 };
+
+/// On what part of the windows to go on after `part`: as far as the stage can be followed; where it is at the
+/// floor at least one step.
+double further(const Stage& stage, const Data& beginnings, const Data& data, double part,
+               const DiagnoseOptions& options) {
+  const double least = is_below(options.finished, stage.estimate, beginnings) ? longer_part(part) : part;
+  return std::max(least, reach(with_values(stage.model, stage.parameters, stage.estimate.theta), data));
+}
+
+/// On the beginnings of the windows over which the model can be followed, and from there on to the whole.
+/// What does not lead to the floor may still lead further, where more can be told.
+void diagnose_by_parts(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                       const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+  progress("how far the model can be followed", 0.0);
+  double part = reach(model, data);
+  for (bool first = true;; first = false) {
+    const Data beginnings = data.beginnings(part);
+    Diagnoser diagnoser(catalogue, beginnings, part, options, progress);
+    first ? diagnoser.run(model, diagnosis) : diagnoser.go_on(diagnosis);
+    const double longer = part < 1.0 ? further(diagnosis.final_stage, beginnings, data, part, options) : part;
+    if (longer <= part) {
+      if (first && diagnosis.verdict == Verdict::unexplained) {
+        diagnoser.look_for_pair(diagnosis);
+      }
+      return;
+    }
+    if (first) {
+      drop_superfluous(beginnings, options, progress, diagnosis);
+    }
+    part = longer;
+  }
+}
+
+/// What is said of all windows, where candidates were tried on some.
+void finish(const Data& data, std::size_t tried, const DiagnoseOptions& options, const Progress& progress,
+            Diagnosis& diagnosis) {
+  const double part = diagnosis.ladder.back().part;
+  const Data all = data.beginnings(part);
+  if (tried < all.windows.size()) {
+    rescore(all, progress, diagnosis);
+  }
+  if (diagnosis.ladder.front().part >= part) {  // else they have been tried without on shorter parts
+    drop_superfluous(all, options, progress, diagnosis);
+  }
+  take_open_values(all, diagnosis);
+  set_values(diagnosis.final_stage, all, diagnosis.accepted);
+  conclude(all, options, diagnosis);
+}
 
 }  // namespace
 
@@ -281,17 +357,10 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  const Data part = data.thinned(options.windows);
-  Diagnoser diagnoser(catalogue, part, options, progress);
+  const Data some = data.thinned(options.windows);
   try {
-    diagnoser.run(model, diagnosis);
-    if (part.windows.size() < data.windows.size()) {
-      rescore(data, progress, diagnosis);
-    }
-    drop_superfluous(data, options, progress, diagnosis);
-    take_open_values(data, diagnosis);
-    set_values(diagnosis.final_stage, data, diagnosis.accepted);
-    conclude(data, options, diagnosis);
+    diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
+    finish(data, some.windows.size(), options, progress, diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

@@ -80,6 +80,7 @@ struct PairRow {
 struct Rung {
   std::string name;  ///< "as given", "own parameters fitted", "+ coulomb@drive"
   Stage stage;
+  double part = 1.0;  ///< of every window's length from its beginning, on which its errors are
   double train() const { return stage.estimate.scores.train; }
   double held_out() const { return stage.estimate.scores.held_out; }
   double foretold() const { return stage.estimate.predicted.scores.held_out; }
@@ -103,6 +104,8 @@ struct Diagnosis {
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };
 
+/// Where the model cannot be followed to the end of the windows (predict/reach.h), it is diagnosed on their
+/// beginnings; what explains these goes on to longer parts, where more may be found, up to the whole windows.
 /// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                    const DiagnoseOptions& options, const Progress& progress);

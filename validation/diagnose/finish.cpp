@@ -1,14 +1,37 @@
 #include "validation/diagnose/finish.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {
+namespace {
+
+/// Fitted anew; where it cannot be integrated, with an infinite error.
+Stage unless_lost(const Stage& stage, const Data& data) {
+  try {
+    return fitted_anew(stage, data);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    Stage lost = stage;
+    lost.estimate.scores.train = lost.estimate.predicted.scores.held_out =
+        std::numeric_limits<double>::infinity();
+    return lost;
+  }
+}
+
+}  // namespace
 
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+  const double part = diagnosis.ladder.back().part;
   for (Rung& rung : diagnosis.ladder) {
+    if (rung.part < part) {
+      continue;
+    }
     progress("all windows for " + rung.name, 0.9);
     PredictorPool pool(rung.stage.model, all);
     rung.stage.estimate = gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {},
@@ -35,10 +58,10 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
     const std::string name = accepted[i].label();
     progress("is " + name + " still needed", 0.9);
     const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + i);
-    const Stage without = fitted_anew(without_effect(stage, effect), all);
+    const Stage without = unless_lost(without_effect(stage, effect), all);
     const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
     if (rise < options.material) {
-      diagnosis.ladder.push_back({"- " + name, without});
+      diagnosis.ladder.push_back({"- " + name, without, diagnosis.ladder.back().part});
       accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
       stage = without;
     } else {

@@ -5,7 +5,8 @@
 
 namespace plumbline::validation {
 
-/// The ladder on all windows, where candidates were tried on a part of them.
+/// The ladder on all windows, where candidates were tried on some of them; of its rungs those that reach as
+/// far into the windows as the last.
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
 /// An early guess that the later ones make superfluous is dropped again.

@@ -24,14 +24,17 @@ Data without_stiffness(const Stage& stage, const Data& data) {
   constexpr double kTimesTheStage = 5.0;
   constexpr double kEvaluationsOfStep = 3.0;
   PredictorPool pool(stage.model, data);
-  double most = 0.0;
-  for (std::size_t w = 0; w < data.windows.size(); w += std::max<std::size_t>(1, data.windows.size() / 4)) {
-    const long before = pool.evaluations();
-    pool.with(static_cast<int>(w), stage.parameters, stage.estimate.theta,
-              [&](Predictor& predictor) { predictor.residual(data.windows[w], stage.estimate.x0[w]); });
-    most = std::max(most, static_cast<double>(pool.evaluations() - before) /
-                              (kEvaluationsOfStep * static_cast<double>(data.windows[w].count)));
-  }
+  std::vector<double> steps(data.windows.size());  // of a sample; few windows may hold an impact
+  parallel_for(static_cast<int>(steps.size()), data.threads, [&](int i) {
+    const auto w = static_cast<std::size_t>(i);
+    pool.with(i, stage.parameters, stage.estimate.theta, [&](Predictor& predictor) {
+      const long before = predictor.evaluations();
+      predictor.residual(data.windows[w], stage.estimate.x0[w]);
+      steps[w] = static_cast<double>(predictor.evaluations() - before) /
+                 (kEvaluationsOfStep * static_cast<double>(data.windows[w].count));
+    });
+  });
+  const double most = *std::max_element(steps.begin(), steps.end());
   Data limited = data;
   double longest = kUsual;
   for (const Trial& trial : data.trials) {

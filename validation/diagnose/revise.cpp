@@ -65,7 +65,8 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   accepted.push_back(finding);
   const Stage next = after(winner.refit);
   set_values(next, data, accepted);
-  diagnosis.ladder.push_back({winner.candidate.label() + " for " + old.label(), next});
+  diagnosis.ladder.push_back(
+      {winner.candidate.label() + " for " + old.label(), next, diagnosis.ladder.back().part});
   diagnosis.final_stage = next;
   diagnosis.accepted = accepted;
 }

@@ -173,10 +173,6 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
   return reduced;
 }
 
-namespace {
-
-constexpr Settling kRoughly{24, 1e-2};
-
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced) {
   std::vector<int> some;
   for (const int w : data.all_windows()) {
@@ -190,8 +186,6 @@ std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduc
   }
   return some;
 }
-
-}  // namespace
 
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& theta) {

@@ -23,6 +23,8 @@ struct Settling {
   double much = 0.05;  ///< share of the cost: what the next step promises to take is less
 };
 
+constexpr Settling kRoughly{24, 1e-2};
+
 /// Steps of the initial states, each window by itself. With empty units the parameters have the values that
 /// the point gives them and no equations.
 class InitialStates {
@@ -69,6 +71,9 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
 /// beginning in a way that leads nowhere.
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& theta);
+
+/// The windows whose squared residuals are more than what is at the floor.
+std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced);
 
 /// The windows that are not linear in where they begin.
 std::vector<int> curved(const std::vector<Reduced>& reduced);

@@ -143,6 +143,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   }
   for (const Rung& rung : diagnosis.ladder) {
     json["ladder"].push_back({{"name", rung.name},
+                              {"part", rung.part},
                               {"train", rung.train()},
                               {"held_out", rung.held_out()},
                               {"foretold", rung.foretold()}});

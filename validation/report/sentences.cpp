@@ -26,6 +26,29 @@ Judged judged(double train, double held_out) {
 
 Judged judged(const Rung& rung) { return judged(rung.train(), rung.foretold()); }
 
+std::string whole_summary(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::missing && diagnosis.accepted.size() == 1) {
+    return finding_sentences(diagnosis.accepted.front(), diagnosis.verdict);
+  }
+  const Judged first = judged(diagnosis.ladder.front());
+  const Judged last = judged(diagnosis.ladder.back());
+  if (diagnosis.verdict == Verdict::missing) {
+    return fmt::format(
+        "Missing: {}. With them the {} error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
+        "the squared error above the floor stays unexplained.",
+        names_of(diagnosis.accepted), last.role, first.error, last.error,
+        100.0 * diagnosis.unexplained_share);
+  }
+  if (diagnosis.accepted.empty()) {
+    return verdict_sentence(diagnosis);
+  }
+  return fmt::format(
+      "Unexplained: the {} error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
+      "but {} not the whole answer.",
+      last.role, last.error, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "",
+      first.error, diagnosis.accepted.size() == 1 ? "is" : "are");
+}
+
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& diagnosis) {
@@ -67,30 +90,27 @@ std::string finding_sentences(const Finding& finding, Verdict verdict) {
           : "");
 }
 
+std::string part_sentence(const Diagnosis& diagnosis) {
+  const double first = diagnosis.ladder.front().part;
+  const double last = diagnosis.ladder.back().part;
+  if (first >= 1.0) {
+    return "";
+  }
+  const std::string where = fmt::format(
+      "As given the model loses the motion: it was diagnosed on the first {:.0f} % of each window.",
+      100.0 * first);
+  if (last >= 1.0) {
+    return where + " With what was found the last error is that of the whole windows.";
+  }
+  return where + fmt::format(" What was found was followed over the first {:.0f} %.", 100.0 * last);
+}
+
 std::string summary(const Diagnosis& diagnosis) {
   if (diagnosis.ladder.empty()) {
     return "Nothing was finished.";
   }
-  if (diagnosis.verdict == Verdict::missing && diagnosis.accepted.size() == 1) {
-    return finding_sentences(diagnosis.accepted.front(), diagnosis.verdict);
-  }
-  const Judged first = judged(diagnosis.ladder.front());
-  const Judged last = judged(diagnosis.ladder.back());
-  if (diagnosis.verdict == Verdict::missing) {
-    return fmt::format(
-        "Missing: {}. With them the {} error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
-        "the squared error above the floor stays unexplained.",
-        names_of(diagnosis.accepted), last.role, first.error, last.error,
-        100.0 * diagnosis.unexplained_share);
-  }
-  if (diagnosis.accepted.empty()) {
-    return verdict_sentence(diagnosis);
-  }
-  return fmt::format(
-      "Unexplained: the {} error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
-      "but {} not the whole answer.",
-      last.role, last.error, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "",
-      first.error, diagnosis.accepted.size() == 1 ? "is" : "are");
+  const std::string part = part_sentence(diagnosis);
+  return whole_summary(diagnosis) + (part.empty() ? "" : " " + part);
 }
 
 }  // namespace plumbline::validation

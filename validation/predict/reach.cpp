@@ -1,0 +1,71 @@
+#include "validation/predict/reach.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "validation/predict/initial_states.h"
+
+namespace plumbline::validation {
+
+namespace {
+
+/// Parts that are tried one after the other where the whole is too long.
+constexpr std::array<double, 8> kTried{0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0};
+
+/// Has the search of too many initial states ended above the floor where the next step still promises much?
+bool is_lost(const Data& part, const std::vector<Reduced>& reduced) {
+  constexpr std::size_t kOneOf = 10;
+  const std::vector<int> above = above_floor(part, reduced);
+  const auto unsettled = std::count_if(above.begin(), above.end(), [&](int w) {
+    const Reduced& one = reduced[static_cast<std::size_t>(w)];
+    return one.curved && one.raw_sse > (1.0 + kRoughly.much) * one.sse;
+  });
+  return kOneOf * static_cast<std::size_t>(unsettled) > reduced.size();
+}
+
+/// The initial states on a part of the windows; of windows that are linear in them as they are.
+std::vector<Reduced> settled(const model::Model& model, const Data& part, Point& at) {
+  const std::vector<FreeParameter> as_it_is;
+  PredictorPool pool(model, part);
+  InitialStates states(pool, as_it_is, {});
+  states.begin(at);
+  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
+  states.settle(curved(reduced), kRoughly, at, reduced);
+  return reduced;
+}
+
+bool can_be_followed(const model::Model& model, const Data& part, Point& at) {
+  try {
+    return !is_lost(part, settled(model, part, at));
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;  // it cannot be integrated so far
+  }
+}
+
+}  // namespace
+
+double longer_part(double share) {
+  const auto* next = std::upper_bound(kTried.begin(), kTried.end(), share);
+  return next == kTried.end() ? 1.0 : *next;
+}
+
+double reach(const model::Model& model, const Data& data) {
+  Point straight;
+  if (can_be_followed(model, data, straight)) {
+    return 1.0;
+  }
+  Point at;
+  double reached = kTried.front();
+  for (const double share : kTried) {
+    if (!can_be_followed(model, data.beginnings(share), at)) {
+      break;
+    }
+    reached = share;
+  }
+  return reached;
+}
+
+}  // namespace plumbline::validation
