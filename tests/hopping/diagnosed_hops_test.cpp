@@ -15,12 +15,15 @@ model::Model mabel(const std::string& name) {
   return model::read_model(PLUMBLINE_ROOT "/robots/mabel/" + name, model::known_effects());
 }
 
-Trial recorded_hops(const model::Model& model, int hops) {
+/// Long enough that several windows tell what one leaves open.
+Trial recorded_hops(const model::Model& model, const HopStart& start, Role role) {
   HopOptions options;
-  options.hops = hops;
+  options.hops = 6;
   options.trace = true;
   const controllers::HoppingConfig setup = read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml");
-  return recorded_trial(model, hop(model, setup, {}, options).trace, 1);
+  Trial trial = recorded_trial(model, hop(model, setup, start, options).trace, 1);
+  trial.role = role;
+  return trial;
 }
 
 /// Few laws, so that it is quick.
@@ -43,7 +46,9 @@ double stiffness_of(const model::Model& model, const std::string& place) {
 
 TEST(DiagnosedHops, NameTheStretchOfTheCables) {
   const model::Model machine = mabel("mabel_planar.yaml");
-  const Data data({recorded_hops(machine, 3)}, {});
+  const Data data(
+      {recorded_hops(machine, {}, Role::train), recorded_hops(machine, {0.06, -0.45, 0.0}, Role::held_out)},
+      {});
   const Diagnosis diagnosis = diagnose(mabel("mabel_planar_rigid.yaml"), some_laws(), data, {},
                                        [](const std::string& /*what*/, double /*fraction*/) {});
   EXPECT_EQ(diagnosis.verdict, Verdict::missing);

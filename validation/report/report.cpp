@@ -1,5 +1,7 @@
 #include "validation/report/report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -109,6 +111,25 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
     ladder.push_back(
         {rung_name(one, known), {one, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})}});
     known = effect_names(one);
+  }
+  return ladder;
+}
+
+std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, const Progress& progress) {
+  for (Rung& rung : ladder) {
+    if (rung.part >= 1.0) {
+      continue;
+    }
+    if (&rung != &ladder.front() && &rung != &ladder.back()) {
+      rung.name += fmt::format(" ({:.0f} % of each window)", 100.0 * rung.part);
+      continue;
+    }
+    progress("whole windows: " + rung.name, 0.0);
+    const Eigen::VectorXd theta = rung.stage.estimate.theta;
+    PredictorPool pool(fitted(rung.stage), data);
+    rung.stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    rung.stage.estimate.theta = theta;
+    rung.part = 1.0;
   }
   return ladder;
 }

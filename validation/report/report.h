@@ -30,4 +30,8 @@ std::string report_page(const nlohmann::json& report);
 std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catalogue& catalogue,
                                  const Data& data, const Progress& progress);
 
+/// A diagnosis' ladder for a page, whose errors and curves are of whole windows: of rungs that are of a part
+/// of them, the first and the last are compared anew as they are, and the others say in their names of which.
+std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, const Progress& progress);
+
 }  // namespace plumbline::validation
