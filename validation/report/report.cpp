@@ -44,6 +44,7 @@ std::vector<Drawn> drawn_models(const ReportContent& content, const Data& data, 
     rungs.push_back(&content.ladder.back());
   }
   std::vector<Drawn> drawn;
+  drawn.reserve(rungs.size());
   for (const Rung* rung : rungs) {
     drawn.push_back({&rung->stage, compare(fitted(rung->stage), data, rung->stage.estimate),
                      predicted_traces(rung->stage, data, progress)});
