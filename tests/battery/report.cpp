@@ -157,6 +157,7 @@ namespace {
 struct Line {
   std::string what, measured, target;
   bool met;
+  bool enough = true;  // cases for a verdict; without, nothing is missed
 };
 
 std::string share_text(const Count& count) {
@@ -170,23 +171,25 @@ constexpr int kFewIntervals = 100;  // fewer tell nothing about how often interv
 std::vector<Line> scoreboard(const Summary& s, const Targets& t) {
   const int named = s.none.of - s.none.met;
   const double intervals = s.intervals.share();
-  return {
-      {"right name, medium and strong", share_text(s.clear), percent(t.clear), s.clear.share() >= t.clear},
-      {"right name, weak", share_text(s.weak), percent(t.weak), s.weak.share() >= t.weak},
-      {"right name, all", share_text(s.overall()), percent(t.overall), s.overall().share() >= t.overall},
-      {"nothing hidden, an effect named", fmt::format("{} of {}", named, s.none.of),
-       std::to_string(t.named_on_none), named <= t.named_on_none},
-      {"pairs with both found, none invented", share_text(s.pairs), percent(t.pairs),
-       s.pairs.share() >= t.pairs},
-      {"laws outside the catalogue, no confident name", share_text(s.unknown), percent(t.unknown),
-       s.unknown.share() >= t.unknown},
-      {"held-out error after, median, floors", fmt::format("{:.3f}", median(s.after)),
-       fmt::format("{}", t.after), median(s.after) <= t.after},
-      {"95 % intervals that hold the truth", share_text(s.intervals),
-       percent(t.intervals_from) + " to " + percent(t.intervals_to),
-       s.intervals.of < kFewIntervals || (intervals >= t.intervals_from && intervals <= t.intervals_to)},
-      {"seconds for a case, median", fmt::format("{:.1f}", median(s.seconds)), fmt::format("{}", t.seconds),
-       median(s.seconds) <= t.seconds}};
+  return {{"right name, medium and strong", share_text(s.clear), percent(t.clear), s.clear.share() >= t.clear,
+           s.clear.of > 0},
+          {"right name, weak", share_text(s.weak), percent(t.weak), s.weak.share() >= t.weak, s.weak.of > 0},
+          {"right name, all", share_text(s.overall()), percent(t.overall), s.overall().share() >= t.overall,
+           s.overall().of > 0},
+          {"nothing hidden, an effect named", fmt::format("{} of {}", named, s.none.of),
+           std::to_string(t.named_on_none), named <= t.named_on_none, s.none.of > 0},
+          {"pairs with both found, none invented", share_text(s.pairs), percent(t.pairs),
+           s.pairs.share() >= t.pairs, s.pairs.of > 0},
+          {"laws outside the catalogue, no confident name", share_text(s.unknown), percent(t.unknown),
+           s.unknown.share() >= t.unknown, s.unknown.of > 0},
+          {"held-out error after, median, floors", fmt::format("{:.3f}", median(s.after)),
+           fmt::format("{}", t.after), median(s.after) <= t.after, !s.after.empty()},
+          {"95 % intervals that hold the truth", share_text(s.intervals),
+           percent(t.intervals_from) + " to " + percent(t.intervals_to),
+           s.intervals.of < kFewIntervals || (intervals >= t.intervals_from && intervals <= t.intervals_to),
+           s.intervals.of >= kFewIntervals},
+          {"seconds for a case, median", fmt::format("{:.1f}", median(s.seconds)),
+           fmt::format("{}", t.seconds), median(s.seconds) <= t.seconds}};
 }
 
 }  // namespace
@@ -239,7 +242,7 @@ std::string summary_text(const Summary& s, const Targets& t) {
       s.hidden, s.overall().of, kVisible);
   for (const Line& line : scoreboard(s, t)) {
     text += fmt::format("  {:<48} {:<22} target {:<13} {}\n", line.what, line.measured, line.target,
-                        mark(line.met));
+                        line.enough ? mark(line.met) : "too few");
   }
   text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
                       share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
@@ -285,8 +288,11 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
     json["cases"].push_back(to_json(result));
   }
   for (const Line& line : scoreboard(s, t)) {
-    json["scoreboard"].push_back(
-        {{"measure", line.what}, {"measured", line.measured}, {"target", line.target}, {"met", line.met}});
+    json["scoreboard"].push_back({{"measure", line.what},
+                                  {"measured", line.measured},
+                                  {"target", line.target},
+                                  {"met", line.met},
+                                  {"enough", line.enough}});
   }
   json["summary"] = {{"hidden", s.hidden},
                      {"visible", s.overall().of},
