@@ -86,7 +86,6 @@ TEST_F(RecordedHops, ThePredictionIsAtTheFloorAndWithoutTheCablesStretchFarAbove
   EXPECT_GT(compare(mabel("mabel_planar_rigid.yaml"), data.thinned(1)).scores.train, 100.0);
 }
 
-// Their encoders show the count 0, which is also the edge.
 // Without the cables' stretch it loses the motion soon after each window's beginning, and no search over the
 // whole of it settles.
 TEST_F(RecordedHops, AreFollowedToTheEndByTheRightModelOnly) {
@@ -97,6 +96,7 @@ TEST_F(RecordedHops, AreFollowedToTheEndByTheRightModelOnly) {
   EXPECT_EQ(longer_part(0.2), 0.35);
 }
 
+// Their encoders show the count 0, which is also the edge.
 TEST_F(RecordedHops, TheSpringsPulleysBeginInsideTheirStops) {
   const Data data({trial_}, {});
   Predictor predictor(model_, trial_, data.predict);

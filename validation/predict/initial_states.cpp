@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "validation/predict/reach.h"
+
 namespace plumbline::validation {
 
 std::vector<int> curved(const std::vector<Reduced>& reduced) {
@@ -101,6 +103,13 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
   }
 }
 
+std::vector<Reduced> InitialStates::settle_all(const Settling& settling, Point& point) {
+  begin(point);
+  std::vector<Reduced> reduced = reduce_or_begin_anew(point);
+  settle(pool_.data().all_windows(), settling, point, reduced);
+  return reduced;
+}
+
 void InitialStates::shorten(const Point& from, const std::vector<Reduced>& before, Point& to,
                             std::vector<Reduced>& after) {
   constexpr int kHalvings = 6;
@@ -166,9 +175,7 @@ void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) 
 std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                 const Settling& settling, Point& at) {
   InitialStates states(pool, parameters, {});
-  states.begin(at);
-  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
-  states.settle(pool.data().all_windows(), settling, at, reduced);
+  std::vector<Reduced> reduced = states.settle_all(settling, at);
   states.take_last_step(at, reduced);
   return reduced;
 }
@@ -189,11 +196,14 @@ std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduc
 
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& theta) {
+  constexpr double kFirstPart = 0.1;
   Point at{theta, {}};
-  for (const double share : {0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+  double share = kFirstPart;
+  while (share < 1.0) {
     const Data data = pool.data().beginnings(share);
     PredictorPool part(pool.model(), data);
     settle_all(part, parameters, kRoughly, at);
+    share = longer_part(share);
   }
   const std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
   InitialStates states(pool, parameters, {});

@@ -44,6 +44,8 @@ class InitialStates {
   std::vector<Reduced> reduce_some(const std::vector<int>& windows, const Point& point);
   /// Steps of the initial states alone, in those of the `open` windows whose next step still promises much.
   void settle(std::vector<int> open, const Settling& settling, Point& point, std::vector<Reduced>& reduced);
+  /// All windows from where they are, or from the measurements; the equations where they end.
+  std::vector<Reduced> settle_all(const Settling& settling, Point& point);
   /// Halves the steps of initial states that made their windows worse, as a touchdown missed or gained does:
   /// the other windows' steps are none of their business. Where the parameters move too, a window may lose a
   /// little.

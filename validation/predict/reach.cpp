@@ -7,7 +7,6 @@
 #include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
-
 namespace {
 
 /// Parts that are tried one after the other where the whole is too long.
@@ -24,20 +23,21 @@ bool is_lost(const Data& part, const std::vector<Reduced>& reduced) {
   return kOneOf * static_cast<std::size_t>(unsettled) > reduced.size();
 }
 
-/// The initial states on a part of the windows; of windows that are linear in them as they are.
-std::vector<Reduced> settled(const model::Model& model, const Data& part, Point& at) {
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, part);
-  InitialStates states(pool, as_it_is, {});
-  states.begin(at);
-  std::vector<Reduced> reduced = states.reduce_or_begin_anew(at);
-  states.settle(curved(reduced), kRoughly, at, reduced);
-  return reduced;
+bool is_any_curved(const model::Model& model, const Data& data) {
+  PredictorPool pool(model, data);
+  bool any = false;
+  for (const int w : data.all_windows()) {
+    pool.with(w, {}, {}, [&](Predictor& predictor) { any = any || predictor.is_curved(); });
+  }
+  return any;
 }
 
 bool can_be_followed(const model::Model& model, const Data& part, Point& at) {
+  const std::vector<FreeParameter> as_it_is;
+  PredictorPool pool(model, part);
+  InitialStates states(pool, as_it_is, {});
   try {
-    return !is_lost(part, settled(model, part, at));
+    return !is_lost(part, states.settle_all(kRoughly, at));
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
@@ -54,7 +54,7 @@ double longer_part(double share) {
 
 double reach(const model::Model& model, const Data& data) {
   Point straight;
-  if (can_be_followed(model, data, straight)) {
+  if (!is_any_curved(model, data) || can_be_followed(model, data, straight)) {
     return 1.0;
   }
   Point at;
