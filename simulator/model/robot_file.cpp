@@ -1,11 +1,11 @@
 #include "simulator/model/robot_file.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "simulator/model/effect_list.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/robot_reader.h"
+#include "simulator/model/yaml_chain.h"
 
 namespace plumbline::model {
 namespace {
@@ -13,40 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "model/1";
-
-std::string beside(const std::string& file, const std::string& relative) {
-  return (fs::path(file).parent_path() / relative).lexically_normal().string();
-}
-
-void check_format(const YamlNode& root) {
-  const YamlNode format = root.at("plumbline");
-  if (format.text() != kFormat) {
-    format.refuse(std::string("`plumbline: ") + kFormat + "`");
-  }
-}
-
-/// The documents from the named file down to the model without a base; refuses a circle.
-std::vector<YamlNode> read_chain(const std::string& path) {
-  std::vector<YamlNode> chain{YamlNode::load(path)};
-  std::vector<fs::path> seen{fs::weakly_canonical(path)};
-  check_format(chain.back());
-  while (const auto base = chain.back().find("base")) {
-    const std::string file = beside(chain.back().file(), base->text());
-    std::error_code missing;
-    if (!fs::is_regular_file(file, missing)) {
-      base->refuse(quote(base->text()) + ", where there is no file",
-                   "the path of a model file, relative to this one");
-    }
-    const fs::path canonical = fs::weakly_canonical(file);
-    if (std::find(seen.begin(), seen.end(), canonical) != seen.end()) {
-      base->refuse(quote(base->text()) + ", which leads back to itself", "a chain of bases that ends");
-    }
-    seen.push_back(canonical);
-    chain.push_back(YamlNode::load(file));
-    check_format(chain.back());
-  }
-  return chain;
-}
 
 std::string skeleton_path(const YamlNode& node) {
   const std::string extension = fs::path(node.text()).extension().string();
@@ -110,7 +76,7 @@ void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue,
 
 Model read_model(const std::string& path, const effects::Catalogue& catalogue,
                  const SkeletonReader& skeletons) {
-  const std::vector<YamlNode> chain = read_chain(path);
+  const std::vector<YamlNode> chain = read_chain(path, kFormat);
   Model model = read_base(chain.back(), catalogue, skeletons);
   for (auto document = chain.rbegin(); document != chain.rend(); ++document) {
     if (document != chain.rbegin()) {

@@ -28,7 +28,7 @@ using validation::HopStatistics;
 constexpr double kDegrees = 57.295779513082323;
 
 struct Options {
-  std::string model, controller, out, record, json;
+  std::string model, controller, out, record, save, json;
   validation::HopStart start;
   validation::HopOptions run;
   int starts = 1;
@@ -207,6 +207,12 @@ void run_search(const Options& options, const model::Model& model, const control
       [&](int, const validation::HopSearchResult& result) { print_now(describe(result, options.sides)); });
   fmt::print("\nThe best:\n");
   print_now(describe(best, options.sides));
+  if (!options.save.empty()) {
+    const HopStatistics& s = best.statistics;
+    validation::write_gains(options.save, options.controller, best.config,
+                            fmt::format("search on {}, seed {}: {} of {} starts reach {} hops", options.model,
+                                        options.seed, s.sustained, s.starts, search.hops));
+  }
   nlohmann::json json{{"cost", best.cost}, {"statistics", to_json(best.statistics)}};
   for (const validation::Searched& searched : validation::searched_values(best.config, options.sides)) {
     json["gains"][searched.name] = searched.value;
@@ -219,6 +225,8 @@ void run(Options options) {
   check_writable(options.json);
   check_new_folder(options.record);
   check_not_an_input(options.out, {options.model, options.controller});
+  check_writable(options.save);
+  check_not_an_input(options.save, {options.model, options.controller});
   const bool keeps_samples = !options.out.empty() || !options.record.empty();
   if (keeps_samples && (options.starts > 1 || options.search > 0)) {
     throw InputError({"", 0, options.out.empty() ? "--record" : "--out"}, "more than one run",
@@ -283,6 +291,9 @@ void add_hop(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("--published", options->published, "with --search: what the gait is held against")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
+  command->add_option("--save", options->save, "with --search: write the best gains as a controller file")
+      ->type_name("FILE")
+      ->needs("--search");
   command->add_flag("--sides", options->sides, "with --search: left and right may have different gains");
   command->add_option("--width", options->width, "with --search: first standard deviation, in the logarithm")
       ->capture_default_str()
