@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -9,6 +10,8 @@
 #include "validation/hopping/drawn_models.h"
 #include "validation/hopping/fixed_point.h"
 #include "validation/hopping/hop_search.h"
+#include "validation/hopping/hopping_file.h"
+#include "validation/predict/problem.h"
 
 namespace plumbline::validation {
 namespace {
@@ -123,6 +126,28 @@ TEST(HoppingCost, IsWhatItsDescriptionSays) {
   }
   EXPECT_NEAR(hopping_cost({}, {run}, 20, {travel}), 10.0 + std::log(11.0), 1e-12);
   EXPECT_NEAR(hopping_cost({}, {HopRun()}, 20, {travel}), 20.0 + std::log(901.0), 1e-12);
+}
+
+// What was found until then is not lost.
+TEST(HopSearch, ReturnsTheBestSoFarWhenItIsInterrupted) {
+  const model::Model mabel =
+      model::read_model(PLUMBLINE_ROOT "/robots/mabel/mabel_planar.yaml", model::known_effects());
+  const controllers::HoppingConfig shipped = read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml");
+  StopFlag stop;
+  HopSearchOptions options;
+  options.trials = 100000;
+  options.starts = 1;
+  options.hops = 2;
+  options.run.stop = &stop;
+  double cheapest = std::numeric_limits<double>::infinity();
+  const HopSearchResult best =
+      search_gains(mabel, shipped, options, [&](int set, const HopSearchResult& result) {
+        cheapest = std::min(cheapest, result.cost);
+        stop.raised = set > 2;
+      });
+  EXPECT_TRUE(best.interrupted);
+  EXPECT_EQ(best.cost, cheapest);
+  EXPECT_THROW(search_gains(mabel, shipped, options, [](int, const HopSearchResult&) {}), Stopped);
 }
 
 }  // namespace

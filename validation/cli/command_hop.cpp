@@ -205,7 +205,7 @@ void run_search(const Options& options, const model::Model& model, const control
   const validation::HopSearchResult best = validation::search_gains(
       model, config, search,
       [&](int, const validation::HopSearchResult& result) { print_now(describe(result, options.sides)); });
-  fmt::print("\nThe best:\n");
+  fmt::print("\n{}:\n", best.interrupted ? "Stopped before the end. The best so far" : "The best");
   print_now(describe(best, options.sides));
   if (!options.save.empty()) {
     const HopStatistics& s = best.statistics;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "validation/hopping/cma_search.h"
+#include "validation/predict/problem.h"
 
 namespace plumbline::validation {
 namespace {
@@ -101,20 +102,24 @@ HopSearchResult search_gains(const model::Model& model, const HoppingConfig& aro
   CmaSearch search(Eigen::VectorXd::Zero(size), options.width, 0, options.seed);
   HopSearchResult best = try_all(model, {around}, starts, options).front();
   progress(0, best);
-  for (int trial = 1; trial < options.trials; trial += search.population()) {
-    const Eigen::MatrixXd candidates = search.ask();
-    std::vector<HoppingConfig> sets;
-    for (const auto& candidate : candidates.colwise()) {
-      sets.push_back(multiply(around, candidate.array().exp(), options.sides));
+  try {
+    for (int trial = 1; trial < options.trials; trial += search.population()) {
+      const Eigen::MatrixXd candidates = search.ask();
+      std::vector<HoppingConfig> sets;
+      for (const auto& candidate : candidates.colwise()) {
+        sets.push_back(multiply(around, candidate.array().exp(), options.sides));
+      }
+      const std::vector<HopSearchResult> results = try_all(model, sets, starts, options);
+      Eigen::VectorXd costs(candidates.cols());
+      for (std::size_t k = 0; k < results.size(); ++k) {
+        costs[static_cast<Eigen::Index>(k)] = results[k].cost;
+        best = results[k].cost < best.cost ? results[k] : best;
+        progress(trial + static_cast<int>(k), results[k]);
+      }
+      search.tell(costs);
     }
-    const std::vector<HopSearchResult> results = try_all(model, sets, starts, options);
-    Eigen::VectorXd costs(candidates.cols());
-    for (std::size_t k = 0; k < results.size(); ++k) {
-      costs[static_cast<Eigen::Index>(k)] = results[k].cost;
-      best = results[k].cost < best.cost ? results[k] : best;
-      progress(trial + static_cast<int>(k), results[k]);
-    }
-    search.tell(costs);
+  } catch (const Stopped&) {
+    best.interrupted = true;
   }
   return best;
 }

@@ -26,6 +26,7 @@ struct HopSearchResult {
   controllers::HoppingConfig config;
   double cost = 0.0;
   HopStatistics statistics;
+  bool interrupted = false;  ///< options.run.stop was raised before all sets were tried
 };
 
 /// A number that is searched, positive, as the controller's file names it.
@@ -44,7 +45,8 @@ double hopping_cost(const controllers::HoppingConfig& config, const std::vector<
 
 /// Looks for kp and kd of leg angle and leg shape, K_T, and the lengths of their rate filters (2 to 12
 /// samples), in the logarithm about `around`, by CmaSearch on hopping_cost. Returns the cheapest set that was
-/// tried. Deterministic for a seed. `progress` is told of each set in its order.
+/// tried, also when it is interrupted; before the first is tried Stopped is thrown. Deterministic for a seed.
+/// `progress` is told of each set in its order.
 HopSearchResult search_gains(const model::Model& model, const controllers::HoppingConfig& around,
                              const HopSearchOptions& options,
                              const std::function<void(int, const HopSearchResult&)>& progress);
