@@ -109,6 +109,27 @@ TEST(OwnParameters, AnEffectIsFoundThroughTheScatter) {
   EXPECT_NEAR(d.accepted[0].parameters[0].value, 2e-4, 2e-5);
 }
 
+// Beside what was named: that stays last in the model, and every parameter stays with its law.
+TEST(OwnParameters, AreOpenedBesideWhatWasNamed) {
+  model::Model model = pendulum();
+  model.effects.push_back(
+      parse_effect("coulomb@drive:level=1e-4,smoothing_speed=0.1", model, effects::Catalogue::all()));
+  Stage named{model, matching(free_parameters(model), {"coulomb@drive:level"}), {}};
+  const Data data({twin(model, read_experiment("tests/robots/pendulum/experiments/chirp.yaml", model), {})},
+                  {});
+  named = fitted_anew(named, data);
+  const Stage open = with_open_numbers(named, 1, 3.0, data);
+  EXPECT_EQ(open.model.effects.back().law->declaration().name, "coulomb");
+  ASSERT_GT(open.parameters.size(), 2U);
+  for (const FreeParameter& parameter : open.parameters) {
+    const model::EffectUse& use = open.model.effects[static_cast<std::size_t>(parameter.id.effect)];
+    EXPECT_EQ(parameter.label.rfind(use.law->declaration().name + "@" + use.at, 0), 0U) << parameter.label;
+  }
+  const auto own = std::count_if(open.parameters.begin(), open.parameters.end(),
+                                 [](const FreeParameter& one) { return std::isfinite(one.deviation); });
+  EXPECT_EQ(own + 1, static_cast<std::ptrdiff_t>(open.parameters.size()));
+}
+
 // Robots whose numbers scatter as their model states: the values at which data and statement together end
 // must lie as far from the true ones as their deviations say. Of 120 intervals of 95 %, 114 +- 2.4.
 TEST(OwnParameters, IntervalsHoldTheTruthAsOftenAsTheySay) {

@@ -15,6 +15,7 @@
 #include "validation/hopping/hopping_file.h"
 #include "validation/predict/estimate.h"
 #include "validation/predict/reach.h"
+#include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
 namespace {
@@ -94,6 +95,27 @@ TEST_F(RecordedHops, AreFollowedToTheEndByTheRightModelOnly) {
   EXPECT_LE(reach(mabel("mabel_planar_rigid.yaml"), data), 0.2);
   EXPECT_EQ(longer_part(0.8), 1.0);
   EXPECT_EQ(longer_part(0.2), 0.35);
+}
+
+// Stiff gains of the leg shape make the cables ring: the replayed motion runs away from one that begins a
+// little beside it, and a search over the whole of a stance does not find where it begins.
+TEST_F(RecordedHops, RingingCablesAreFollowedByGrowingTheWindows) {
+  controllers::HoppingConfig stiff = read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml");
+  stiff.left = {950.0, 100.0, 145.0, 1.75};
+  stiff.right = {610.0, 37.0, 2.8, 0.053};
+  stiff.leg_angle_filter.samples = 3;
+  HopOptions options;
+  options.hops = 2;
+  options.trace = true;
+  Data data({recorded_trial(model_, hop(model_, stiff, {}, options).trace, 1)}, {});
+  data.windows = {data.windows[2]};  // the second stance
+  ASSERT_EQ(data.windows.front().events.size(), 4U);
+  PredictorPool pool(model_, data);
+  const std::vector<FreeParameter> none;
+  Point straight;
+  EXPECT_FALSE(above_floor(data, settle_all(pool, none, kRoughly, straight)).empty());
+  Point grown = states_by_parts(pool, none, {});
+  EXPECT_TRUE(above_floor(data, settle_all(pool, none, kRoughly, grown)).empty());
 }
 
 // Their encoders show the count 0, which is also the edge.

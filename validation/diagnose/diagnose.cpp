@@ -33,7 +33,7 @@ class Diagnoser {
       return;
     }
     const Rung given = diagnosis.ladder.front();
-    const Stage open = with_open_numbers(given.stage);
+    const Stage open = with_open_numbers(given.stage, 0, options_.parameter_width, data_);
     if (open.parameters.empty()) {
       look(options_.most_effects, diagnosis);
     } else {
@@ -51,6 +51,7 @@ class Diagnoser {
     }
     diagnosis.final_stage = longer;
     diagnosis.ladder.push_back({"the same further on", std::move(longer), part_});
+    open_own_numbers(diagnosis);
     look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
   }
 
@@ -164,19 +165,24 @@ class Diagnoser {
     return evidence_for_stated(diagnosis.final_stage, data_, options_.parameter_width);
   }
 
-  /// The stage with the numbers that its model states with an uncertainty as free parameters, not yet fitted.
-  Stage with_open_numbers(const Stage& given) const {
-    Stage open{with_stated_errors(given.model), {}, given.estimate};
-    PredictorPool pool(open.model, data_);
-    open.parameters = noticeable_parameters(pool, stated_parameters(open.model, options_.parameter_width),
-                                            given.estimate.x0);
-    return open;
-  }
-
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
   bool speaks_for_stated(const Diagnosis& diagnosis) const {
     return diagnosis.verdict == Verdict::nothing_missing ||
            (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
+  }
+
+  /// Beside what is named: where that alone is not at the floor and the numbers help.
+  void open_own_numbers(Diagnosis& diagnosis) const {
+    const Stage& stage = diagnosis.final_stage;
+    if (is_below(options_.finished, stage.estimate, data_) || !own_values(stage).empty()) {
+      return;
+    }
+    const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
+    Stage fitted = with_fresh_states(fit_own(open));
+    if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
+      diagnosis.final_stage = fitted;
+      diagnosis.ladder.push_back({"own parameters fitted", std::move(fitted), part_});
+    }
   }
 
   Stage fit_own(const Stage& open) const {

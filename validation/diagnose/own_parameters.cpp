@@ -78,12 +78,12 @@ double inertia_deviation(const model::Model& model, const model::Motor& motor) {
 
 }  // namespace
 
-model::Model with_stated_errors(const model::Model& model) {
-  model::Model open = model;
+model::Model with_stated_errors(const model::Model& model, std::size_t named) {
+  std::vector<model::EffectUse> uses;
   const auto add = [&](const std::string& law, const std::string& at, double deviation,
                        const std::string& what) {
     if (deviation > 0.0) {
-      open.effects.push_back(open_number(law, at, deviation, "stated uncertainty of the " + what));
+      uses.push_back(open_number(law, at, deviation, "stated uncertainty of the " + what));
     }
   };
   for (const model::Motor& motor : model.motors) {
@@ -95,6 +95,8 @@ model::Model with_stated_errors(const model::Model& model) {
   for (const model::Body& body : model.skeleton.bodies) {
     add("added_mass", body.name, body.mass_uncertainty, "mass");
   }
+  model::Model open = model;
+  open.effects.insert(open.effects.end() - static_cast<std::ptrdiff_t>(named), uses.begin(), uses.end());
   return open;
 }
 
@@ -138,6 +140,22 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
     }
   }
   return kept;
+}
+
+Stage with_open_numbers(const Stage& stage, std::size_t named, double width, const Data& data) {
+  const model::Model given = with_values(stage.model, stage.parameters, stage.estimate.theta);
+  Stage open{with_stated_errors(given, named), {}, stage.estimate};
+  PredictorPool pool(open.model, data);
+  open.parameters = noticeable_parameters(pool, stated_parameters(open.model, width), stage.estimate.x0);
+  const auto first = static_cast<int>(given.effects.size() - named);
+  const auto further = static_cast<int>(open.model.effects.size() - given.effects.size());
+  const auto moved = [&](model::ParameterId& id) { id.effect += id.effect >= first ? further : 0; };
+  for (FreeParameter parameter : stage.parameters) {
+    moved(parameter.id);
+    std::for_each(parameter.also.begin(), parameter.also.end(), moved);
+    open.parameters.push_back(parameter);
+  }
+  return open;
 }
 
 double evidence_for_stated(const Stage& stage, const Data& data, double width) {

@@ -12,7 +12,8 @@ namespace plumbline::validation {
 /// an uncertainty: added_mass, rotor_inertia and torque_constant_error, with that uncertainty. It moves as
 /// the model does, and what an honest change of these numbers can do is then a matter of these effects'
 /// values. Uncertainties of further inertias at a motor count with the rotor's (root of the sum of squares).
-model::Model with_stated_errors(const model::Model& model);
+/// The model's last `named` effects stay the last.
+model::Model with_stated_errors(const model::Model& model, std::size_t named = 0);
 
 /// The model's own free parameters: those of its effects that state an uncertainty, within `width` standard
 /// deviations of the stated value and the law's bounds.
@@ -23,6 +24,11 @@ std::vector<FreeParameter> stated_parameters(const model::Model& model, double w
 std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
                                                  const std::vector<FreeParameter>& parameters,
                                                  const std::vector<Eigen::VectorXd>& x0);
+
+/// The stage with its model's own numbers open beside its parameters: with_stated_errors, and of
+/// stated_parameters those that are noticeable in `data`. All stand where they stood; nothing is fitted. The
+/// last `named` effects of the model stay the last.
+Stage with_open_numbers(const Stage& stage, std::size_t named, double width, const Data& data);
 
 /// How much more probable the data are with every own parameter exactly as stated than with them scattered as
 /// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with the own parameters d

@@ -5,6 +5,7 @@
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
 #include "validation/predict/initial_states.h"
+#include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
 namespace {

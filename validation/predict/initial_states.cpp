@@ -5,8 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "validation/predict/reach.h"
-
 namespace plumbline::validation {
 
 std::vector<int> curved(const std::vector<Reduced>& reduced) {
@@ -180,48 +178,18 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
   return reduced;
 }
 
-std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced) {
+std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits) {
   std::vector<int> some;
   for (const int w : data.all_windows()) {
     const auto i = static_cast<std::size_t>(w);
     const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[i].trial)];
     const auto residuals =
         static_cast<double>(data.windows[i].count) * static_cast<double>(trial.measured.size());
-    if (reduced[i].raw_sse > kFits * kFits * residuals) {
+    if (reduced[i].raw_sse > fits * fits * residuals) {
       some.push_back(w);
     }
   }
   return some;
-}
-
-Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& theta) {
-  constexpr double kFirstPart = 0.1;
-  Point at{theta, {}};
-  double share = kFirstPart;
-  while (share < 1.0) {
-    const Data data = pool.data().beginnings(share);
-    PredictorPool part(pool.model(), data);
-    settle_all(part, parameters, kRoughly, at);
-    share = longer_part(share);
-  }
-  const std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
-  InitialStates states(pool, parameters, {});
-  const std::vector<int> open = above_floor(pool.data(), reduced);
-  Point direct = at;
-  for (const int w : open) {
-    direct.x0[static_cast<std::size_t>(w)].resize(0);
-  }
-  states.begin(direct);
-  std::vector<Reduced> other = states.reduce_some(open, direct);
-  states.settle(open, kRoughly, direct, other);
-  for (const int w : open) {
-    const auto i = static_cast<std::size_t>(w);
-    if (other[i].raw_sse < reduced[i].raw_sse) {
-      at.x0[i] = direct.x0[i];
-    }
-  }
-  return at;
 }
 
 }  // namespace plumbline::validation

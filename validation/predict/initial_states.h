@@ -67,15 +67,8 @@ class InitialStates {
 std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                 const Settling& settling, Point& at);
 
-/// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
-/// the windows, then longer ones, each from where the one before ended. A window that is above the floor
-/// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
-/// beginning in a way that leads nowhere.
-Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& theta);
-
-/// The windows whose squared residuals are more than what is at the floor.
-std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced);
+/// The windows whose root mean square residual is more than `fits` floors.
+std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits = kFits);
 
 /// The windows that are not linear in where they begin.
 std::vector<int> curved(const std::vector<Reduced>& reduced);

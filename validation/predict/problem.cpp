@@ -54,11 +54,14 @@ Data Data::thinned(std::size_t most) const {
   return copy;
 }
 
-Data Data::beginnings(double share) const {
+Data Data::beginnings(double share) const { return beginnings(std::vector<double>(windows.size(), share)); }
+
+Data Data::beginnings(const std::vector<double>& shares) const {
   Data copy = *this;
-  for (Window& window : copy.windows) {
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    Window& window = copy.windows[w];
     const Trial& trial = trials[static_cast<std::size_t>(window.trial)];
-    window.count = std::max<Eigen::Index>(2, std::lround(share * static_cast<double>(window.count)));
+    window.count = std::max<Eigen::Index>(2, std::lround(shares[w] * static_cast<double>(window.count)));
     const auto is_behind = [&](int e) {
       return trial.contact_events[static_cast<std::size_t>(e)].sample >= window.first + window.count;
     };

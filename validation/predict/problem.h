@@ -37,6 +37,8 @@ struct Data {
   Data thinned(std::size_t most) const;
   /// The same windows, of each the first `share` of its length, with the contact events in it.
   Data beginnings(double share) const;
+  /// The same with a share for each window.
+  Data beginnings(const std::vector<double>& shares) const;
   Role role(std::size_t window) const;
   std::vector<int> all_windows() const;
   std::vector<int> windows_of(Role wanted) const;

@@ -1,0 +1,137 @@
+#include "validation/predict/states_by_parts.h"
+
+#include <algorithm>
+
+#include "validation/predict/reach.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kFirstPart = 0.1;
+
+/// How much of each window was at the floor, and from which initial state.
+struct Grown {
+  std::vector<double> share;
+  std::vector<Eigen::VectorXd> x0;
+};
+
+/// Those of the windows that are well at the floor and settled there: a beginning that is nearly at it may be
+/// in a minimum that leads nowhere.
+void keep(const Data& part, const std::vector<double>& shares, const Point& at,
+          const std::vector<Reduced>& reduced, const std::vector<int>& windows, Grown& grown) {
+  constexpr double kWell = 1.05;
+  const std::vector<int> above = above_floor(part, reduced, kWell);
+  for (const int w : windows) {
+    const auto i = static_cast<std::size_t>(w);
+    const bool settled = reduced[i].raw_sse <= (1.0 + kRoughly.much) * reduced[i].sse;
+    if (settled && !std::binary_search(above.begin(), above.end(), w)) {
+      grown.share[i] = shares[i];
+      grown.x0[i] = at.x0[i];
+    }
+  }
+}
+
+/// The windows that are above the floor, also from the measurements at once.
+void try_directly(InitialStates& states, const std::vector<int>& open, Point& at,
+                  std::vector<Reduced>& reduced) {
+  Point direct = at;
+  for (const int w : open) {
+    direct.x0[static_cast<std::size_t>(w)].resize(0);
+  }
+  states.begin(direct);
+  std::vector<Reduced> other = states.reduce_some(open, direct);
+  states.settle(open, kRoughly, direct, other);
+  for (const int w : open) {
+    const auto i = static_cast<std::size_t>(w);
+    if (other[i].raw_sse < reduced[i].raw_sse) {
+      at.x0[i] = direct.x0[i];
+      reduced[i] = std::move(other[i]);
+    }
+  }
+}
+
+/// Settles the open windows on the given shares of their lengths, from `at`, and keeps those that come to the
+/// floor.
+void try_on(const PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+            const std::vector<double>& shares, const std::vector<int>& open, Point at, Grown& grown) {
+  const Data data = pool.data().beginnings(shares);
+  PredictorPool part(pool.model(), data);
+  InitialStates states(part, parameters, {});
+  states.begin(at);
+  std::vector<Reduced> reduced = states.reduce_some(open, at);
+  states.settle(open, kRoughly, at, reduced);
+  keep(data, shares, at, reduced, open, grown);
+}
+
+/// A beginning that can be brought to the floor from the measurements, for windows of which none was yet.
+void begin_anew(const PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                std::vector<int> open, const Point& at, Grown& grown) {
+  for (const double share : {0.2, 0.05, 0.35}) {
+    const auto has_begun = [&](int w) { return grown.share[static_cast<std::size_t>(w)] > 0.0; };
+    open.erase(std::remove_if(open.begin(), open.end(), has_begun), open.end());
+    Point anew = at;
+    for (const int w : open) {
+      anew.x0[static_cast<std::size_t>(w)].resize(0);
+    }
+    try_on(pool, parameters, std::vector<double>(grown.share.size(), share), open, anew, grown);
+  }
+}
+
+/// Lengthens windows from the part that was at the floor, each by steps that double where it stays there and
+/// halve where it does not. One that comes to its end has found its state.
+void grow(const PredictorPool& pool, const std::vector<FreeParameter>& parameters, std::vector<int> open,
+          Grown& grown, Point& at) {
+  constexpr double kFirstStep = 0.1;
+  constexpr double kLeastStep = 0.02;
+  std::vector<double> step(grown.share.size(), kFirstStep);
+  const auto is_done = [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    return grown.share[i] == 0.0 || grown.share[i] >= 1.0 || step[i] < kLeastStep;
+  };
+  for (;;) {
+    open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
+    if (open.empty()) {
+      return;
+    }
+    std::vector<double> shares(grown.share.size(), 1.0);
+    Point tried = at;
+    for (const int w : open) {
+      const auto i = static_cast<std::size_t>(w);
+      shares[i] = std::min(1.0, grown.share[i] + step[i]);
+      tried.x0[i] = grown.x0[i];
+    }
+    const std::vector<double> before = grown.share;
+    try_on(pool, parameters, shares, open, tried, grown);
+    for (const int w : open) {
+      const auto i = static_cast<std::size_t>(w);
+      step[i] *= grown.share[i] > before[i] ? 2.0 : 0.5;
+      if (grown.share[i] >= 1.0) {
+        at.x0[i] = grown.x0[i];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& theta) {
+  const std::size_t count = pool.data().windows.size();
+  Point at{theta, {}};
+  Grown grown{std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)};
+  for (double share = kFirstPart; share < 1.0; share = longer_part(share)) {
+    const Data data = pool.data().beginnings(share);
+    PredictorPool part(pool.model(), data);
+    const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, at);
+    keep(data, std::vector<double>(count, share), at, reduced, data.all_windows(), grown);
+  }
+  std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
+  InitialStates states(pool, parameters, {});
+  try_directly(states, above_floor(pool.data(), reduced), at, reduced);
+  const std::vector<int> open = above_floor(pool.data(), reduced);
+  begin_anew(pool, parameters, open, at, grown);
+  grow(pool, parameters, open, grown, at);
+  return at;
+}
+
+}  // namespace plumbline::validation

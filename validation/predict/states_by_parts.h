@@ -1,0 +1,17 @@
+// Initial states of windows that are too crooked to be searched at once.
+#pragma once
+
+#include "validation/predict/initial_states.h"
+
+namespace plumbline::validation {
+
+/// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
+/// the windows, then longer ones, each from where the one before ended. A window that is above the floor
+/// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
+/// beginning in a way that leads nowhere. One that is still above it, but was not on a beginning, is grown
+/// from there in steps as small as it takes: a motion that runs away from what it nearly was allows only
+/// small ones.
+Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& theta);
+
+}  // namespace plumbline::validation
