@@ -171,13 +171,17 @@ class Diagnoser {
            (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
   }
 
-  /// Beside what is named: where that alone is not at the floor and the numbers help.
+  /// Beside what is named, and more of them than on shorter parts: where that alone is not at the floor and
+  /// they help.
   void open_own_numbers(Diagnosis& diagnosis) const {
     const Stage& stage = diagnosis.final_stage;
-    if (is_below(options_.finished, stage.estimate, data_) || !own_values(stage).empty()) {
+    if (is_below(options_.finished, stage.estimate, data_)) {
       return;
     }
     const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
+    if (open.parameters.size() == stage.parameters.size()) {
+      return;
+    }
     Stage fitted = with_fresh_states(fit_own(open));
     if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
       diagnosis.final_stage = fitted;

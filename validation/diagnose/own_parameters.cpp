@@ -144,17 +144,26 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
 
 Stage with_open_numbers(const Stage& stage, std::size_t named, double width, const Data& data) {
   const model::Model given = with_values(stage.model, stage.parameters, stage.estimate.theta);
-  Stage open{with_stated_errors(given, named), {}, stage.estimate};
-  PredictorPool pool(open.model, data);
-  open.parameters = noticeable_parameters(pool, stated_parameters(open.model, width), stage.estimate.x0);
+  const bool has_own = std::any_of(stage.parameters.begin(), stage.parameters.end(), is_own);
+  Stage open{has_own ? given : with_stated_errors(given, named), {}, stage.estimate};
   const auto first = static_cast<int>(given.effects.size() - named);
   const auto further = static_cast<int>(open.model.effects.size() - given.effects.size());
-  const auto moved = [&](model::ParameterId& id) { id.effect += id.effect >= first ? further : 0; };
-  for (FreeParameter parameter : stage.parameters) {
-    moved(parameter.id);
-    std::for_each(parameter.also.begin(), parameter.also.end(), moved);
-    open.parameters.push_back(parameter);
+  const auto move = [&](model::ParameterId& id) { id.effect += id.effect >= first ? further : 0; };
+  std::vector<FreeParameter> before = stage.parameters;
+  for (FreeParameter& parameter : before) {
+    move(parameter.id);
+    std::for_each(parameter.also.begin(), parameter.also.end(), move);
   }
+  std::vector<FreeParameter> own = stated_parameters(open.model, width);
+  const auto is_open = [&](const FreeParameter& one) {
+    return std::any_of(before.begin(), before.end(), [&](const FreeParameter& other) {
+      return other.id.effect == one.id.effect && other.id.parameter == one.id.parameter;
+    });
+  };
+  own.erase(std::remove_if(own.begin(), own.end(), is_open), own.end());
+  PredictorPool pool(open.model, data);
+  open.parameters = noticeable_parameters(pool, own, stage.estimate.x0);
+  open.parameters.insert(open.parameters.end(), before.begin(), before.end());
   return open;
 }
 

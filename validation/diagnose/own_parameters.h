@@ -25,9 +25,9 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
                                                  const std::vector<FreeParameter>& parameters,
                                                  const std::vector<Eigen::VectorXd>& x0);
 
-/// The stage with its model's own numbers open beside its parameters: with_stated_errors, and of
-/// stated_parameters those that are noticeable in `data`. All stand where they stood; nothing is fitted. The
-/// last `named` effects of the model stay the last.
+/// The stage with its model's own numbers open beside its parameters: with_stated_errors, where none is open
+/// yet, and of stated_parameters those that are noticeable in `data`. All stand where they stood; nothing is
+/// fitted. The last `named` effects of the model stay the last.
 Stage with_open_numbers(const Stage& stage, std::size_t named, double width, const Data& data);
 
 /// How much more probable the data are with every own parameter exactly as stated than with them scattered as

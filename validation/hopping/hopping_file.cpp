@@ -18,6 +18,7 @@ using model::YamlNode;
 using Sign = model::QuantityRule::Sign;
 
 constexpr const char* kFormat = "controller/1";
+constexpr const char* kFound = "found by search";
 
 /// A number of a section and where it goes.
 struct Entry {
@@ -174,20 +175,18 @@ void read_document(const YamlNode& root, Extent extent, HoppingConfig& config) {
   }
 }
 
-void emit_gains(YAML::Emitter& out, const char* side, const controllers::HoppingLegGains& gains,
-                const std::string& note) {
+void emit_gains(YAML::Emitter& out, const char* side, const controllers::HoppingLegGains& gains) {
   out << YAML::Key << side << YAML::Value << YAML::BeginMap;
-  model::emit_quantity(out, "kp_LA", {gains.kp_LA, "N m/rad", 0.0, "assumed", note});
-  model::emit_quantity(out, "kd_LA", {gains.kd_LA, "N m s/rad", 0.0, "assumed", note});
-  model::emit_quantity(out, "kp_mLS", {gains.kp_mLS, "N m/rad", 0.0, "assumed", note});
-  model::emit_quantity(out, "kd_mLS", {gains.kd_mLS, "N m s/rad", 0.0, "assumed", note});
+  model::emit_quantity(out, "kp_LA", {gains.kp_LA, "N m/rad", 0.0, "assumed", kFound});
+  model::emit_quantity(out, "kd_LA", {gains.kd_LA, "N m s/rad", 0.0, "assumed", kFound});
+  model::emit_quantity(out, "kp_mLS", {gains.kp_mLS, "N m/rad", 0.0, "assumed", kFound});
+  model::emit_quantity(out, "kd_mLS", {gains.kd_mLS, "N m s/rad", 0.0, "assumed", kFound});
   out << YAML::EndMap;
 }
 
-void emit_one(YAML::Emitter& out, const char* section, const char* key, double value,
-              const std::string& note) {
+void emit_one(YAML::Emitter& out, const char* section, const char* key, double value) {
   out << YAML::Key << section << YAML::Value << YAML::BeginMap;
-  model::emit_quantity(out, key, {value, "1", 0.0, "assumed", note});
+  model::emit_quantity(out, key, {value, "1", 0.0, "assumed", kFound});
   out << YAML::EndMap;
 }
 
@@ -206,13 +205,13 @@ void write_gains(const std::string& path, const std::string& base_file, const Ho
                  const std::string& note) {
   YAML::Emitter out;
   model::begin_overlay(out, path, kFormat, base_file, note);
-  emit_gains(out, "left", config.left, note);
-  emit_gains(out, "right", config.right, note);
+  emit_gains(out, "left", config.left);
+  emit_gains(out, "right", config.right);
   if (config.parameters.event_update) {
-    emit_one(out, "event_update", "K_T", config.parameters.K_T, note);
+    emit_one(out, "event_update", "K_T", config.parameters.K_T);
   }
-  emit_one(out, "leg_angle_filter", "samples", config.leg_angle_filter.samples, note);
-  emit_one(out, "leg_shape_filter", "samples", config.leg_shape_filter.samples, note);
+  emit_one(out, "leg_angle_filter", "samples", config.leg_angle_filter.samples);
+  emit_one(out, "leg_shape_filter", "samples", config.leg_shape_filter.samples);
   out << YAML::EndMap;
   write_text_atomically(path, std::string(out.c_str()) + "\n");
 }

@@ -63,18 +63,16 @@ void try_on(const PredictorPool& pool, const std::vector<FreeParameter>& paramet
   keep(data, shares, at, reduced, open, grown);
 }
 
-/// A beginning that can be brought to the floor from the measurements, for windows of which none was yet.
+/// A short beginning, from the measurements, of windows of which none was at the floor.
 void begin_anew(const PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                std::vector<int> open, const Point& at, Grown& grown) {
-  for (const double share : {0.2, 0.05, 0.35}) {
-    const auto has_begun = [&](int w) { return grown.share[static_cast<std::size_t>(w)] > 0.0; };
-    open.erase(std::remove_if(open.begin(), open.end(), has_begun), open.end());
-    Point anew = at;
-    for (const int w : open) {
-      anew.x0[static_cast<std::size_t>(w)].resize(0);
-    }
-    try_on(pool, parameters, std::vector<double>(grown.share.size(), share), open, anew, grown);
+                std::vector<int> open, Point at, Grown& grown) {
+  constexpr double kShortPart = 0.05;
+  const auto has_begun = [&](int w) { return grown.share[static_cast<std::size_t>(w)] > 0.0; };
+  open.erase(std::remove_if(open.begin(), open.end(), has_begun), open.end());
+  for (const int w : open) {
+    at.x0[static_cast<std::size_t>(w)].resize(0);
   }
+  try_on(pool, parameters, std::vector<double>(grown.share.size(), kShortPart), open, at, grown);
 }
 
 /// Lengthens windows from the part that was at the floor, each by steps that double where it stays there and
@@ -119,11 +117,13 @@ Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& par
   const std::size_t count = pool.data().windows.size();
   Point at{theta, {}};
   Grown grown{std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)};
-  for (double share = kFirstPart; share < 1.0; share = longer_part(share)) {
+  double share = kFirstPart;
+  while (share < 1.0) {
     const Data data = pool.data().beginnings(share);
     PredictorPool part(pool.model(), data);
     const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, at);
     keep(data, std::vector<double>(count, share), at, reduced, data.all_windows(), grown);
+    share = longer_part(share);
   }
   std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
   InitialStates states(pool, parameters, {});
