@@ -49,8 +49,7 @@ class Diagnoser {
     if (!is_below(options_.finished, longer.estimate, data_)) {
       longer = with_fresh_states(longer);
     }
-    diagnosis.final_stage = longer;
-    diagnosis.ladder.push_back({"the same further on", std::move(longer), part_});
+    take("the same further on", longer, diagnosis);
     open_own_numbers(diagnosis);
     look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
   }
@@ -182,11 +181,17 @@ class Diagnoser {
     if (open.parameters.size() == stage.parameters.size()) {
       return;
     }
-    Stage fitted = with_fresh_states(fit_own(open));
+    const Stage fitted = with_fresh_states(fit_own(open));
     if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
-      diagnosis.final_stage = fitted;
-      diagnosis.ladder.push_back({"own parameters fitted", std::move(fitted), part_});
+      take("own parameters fitted", fitted, diagnosis);
     }
+  }
+
+  /// A rung, and the values that it gives to what is named.
+  void take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const {
+    set_values(stage, data_, diagnosis.accepted);
+    diagnosis.final_stage = stage;
+    diagnosis.ladder.push_back({name, stage, part_});
   }
 
   Stage fit_own(const Stage& open) const {
