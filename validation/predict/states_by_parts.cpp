@@ -69,6 +69,9 @@ void begin_anew(const PredictorPool& pool, const std::vector<FreeParameter>& par
   constexpr double kShortPart = 0.05;
   const auto has_begun = [&](int w) { return grown.share[static_cast<std::size_t>(w)] > 0.0; };
   open.erase(std::remove_if(open.begin(), open.end(), has_begun), open.end());
+  if (open.empty()) {
+    return;
+  }
   for (const int w : open) {
     at.x0[static_cast<std::size_t>(w)].resize(0);
   }
