@@ -15,8 +15,8 @@ namespace plumbline::validation {
 controllers::HoppingConfig read_hopping(const std::string& path);
 
 /// Writes what a search changes (gains, K_T, lengths of the rate filters) as a file `path` on `base_file`,
-/// each number assumed for the reason `note`. Throws InputError when the two are one file, std::runtime_error
-/// when it cannot be written.
+/// with `note` on the search. Throws InputError when the two are one file, std::runtime_error when it cannot
+/// be written.
 void write_gains(const std::string& path, const std::string& base_file,
                  const controllers::HoppingConfig& config, const std::string& note);
 

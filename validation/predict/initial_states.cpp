@@ -17,6 +17,10 @@ std::vector<int> curved(const std::vector<Reduced>& reduced) {
   return some;
 }
 
+bool is_settled(const Reduced& reduced, const Settling& settling) {
+  return reduced.raw_sse <= (1.0 + settling.much) * reduced.sse;
+}
+
 void InitialStates::begin(Point& point) {
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
@@ -75,11 +79,11 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
   constexpr double kShortest = 0.01;
   std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
   for (int i = 0; i < settling.steps; ++i) {
-    const auto is_settled = [&](int w) {
+    const auto is_done = [&](int w) {
       const auto at = static_cast<std::size_t>(w);
-      return reduced[at].raw_sse <= (1.0 + settling.much) * reduced[at].sse || share[at] < kShortest;
+      return is_settled(reduced[at], settling) || share[at] < kShortest;
     };
-    open.erase(std::remove_if(open.begin(), open.end(), is_settled), open.end());
+    open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
     if (open.empty()) {
       return;
     }

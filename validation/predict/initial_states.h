@@ -25,6 +25,9 @@ struct Settling {
 
 constexpr Settling kRoughly{24, 1e-2};
 
+/// Does the next step of the window's initial state promise little?
+bool is_settled(const Reduced& reduced, const Settling& settling);
+
 /// Steps of the initial states, each window by itself. With empty units the parameters have the values that
 /// the point gives them and no equations.
 class InitialStates {

@@ -18,7 +18,7 @@ bool is_lost(const Data& part, const std::vector<Reduced>& reduced) {
   const std::vector<int> above = above_floor(part, reduced);
   const auto unsettled = std::count_if(above.begin(), above.end(), [&](int w) {
     const Reduced& one = reduced[static_cast<std::size_t>(w)];
-    return one.curved && one.raw_sse > (1.0 + kRoughly.much) * one.sse;
+    return one.curved && !is_settled(one, kRoughly);
   });
   return kOneOf * static_cast<std::size_t>(unsettled) > reduced.size();
 }

@@ -23,8 +23,7 @@ void keep(const Data& part, const std::vector<double>& shares, const Point& at,
   const std::vector<int> above = above_floor(part, reduced, kWell);
   for (const int w : windows) {
     const auto i = static_cast<std::size_t>(w);
-    const bool settled = reduced[i].raw_sse <= (1.0 + kRoughly.much) * reduced[i].sse;
-    if (settled && !std::binary_search(above.begin(), above.end(), w)) {
+    if (is_settled(reduced[i], kRoughly) && !std::binary_search(above.begin(), above.end(), w)) {
       grown.share[i] = shares[i];
       grown.x0[i] = at.x0[i];
     }
