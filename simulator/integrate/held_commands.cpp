@@ -59,4 +59,15 @@ void HeldCommands::set(Eigen::Index k, const double* command) {
   }
 }
 
+void HeldCommands::push(const double* command) {
+  const Eigen::Index kept = samples_.cols() - 1;
+  samples_.leftCols(kept) = samples_.rightCols(kept).eval();
+  set(kept, command);
+}
+
+Eigen::Index HeldCommands::depth(double period, const std::vector<double>& delays) {
+  const double longest = delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
+  return static_cast<Eigen::Index>(std::ceil(longest / period)) + 2;
+}
+
 }  // namespace plumbline::integrate

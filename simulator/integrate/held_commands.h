@@ -29,6 +29,10 @@ class HeldCommands {
   Eigen::Index samples() const { return samples_.cols(); }
   /// Closed loop: the command of sample k is now known.
   void set(Eigen::Index k, const double* command);
+  /// Closed loop without an end: one sample further, the oldest one is dropped.
+  void push(const double* command);
+  /// Samples that matter at any time with these delays.
+  static Eigen::Index depth(double period, const std::vector<double>& delays);
 
  private:
   double sample(Eigen::Index motor, Eigen::Index k) const;

@@ -137,14 +137,18 @@ const std::vector<Robot>& robots() {
       {"leg_bench",
        kMabel + "leg_bench.yaml",
        {kMabel + "experiments/siso_mLA.yaml", kMabel + "experiments/siso_mLS.yaml",
-        kMabel + "experiments/mimo.yaml"}},
+        kMabel + "experiments/mimo.yaml"},
+       ""},
       {"pendulum",
        kPendulum + "model.yaml",
        {kPendulum + "experiments/chirp.yaml", kPendulum + "experiments/steps.yaml",
-        kPendulum + "experiments/multisine.yaml"}},
+        kPendulum + "experiments/multisine.yaml"},
+       ""},
       {"hopper",
        kHopper + "hopper.yaml",
-       {kHopper + "experiments/bounce.yaml", kHopper + "experiments/steps.yaml"}}};
+       {kHopper + "experiments/bounce.yaml", kHopper + "experiments/steps.yaml"},
+       ""},
+      {"mabel", kMabel + "mabel_planar.yaml", {}, kMabel + "hopping.yaml"}};
   return kRobots;
 }
 
@@ -161,10 +165,11 @@ std::vector<std::string> robots_of_rig(const std::string& rig) {
   const std::map<std::string, std::vector<std::string>> rigs{{"bench", {"leg_bench"}},
                                                              {"pendulum", {"pendulum"}},
                                                              {"hopper", {"hopper"}},
-                                                             {"all", {"leg_bench", "pendulum", "hopper"}}};
+                                                             {"mabel", {"mabel"}},
+                                                             {"all", {"leg_bench", "pendulum", "hopper", "mabel"}}};
   const auto found = rigs.find(rig);
   if (found == rigs.end()) {
-    throw std::invalid_argument("--rig: found '" + rig + "', expected bench, pendulum, hopper or all");
+    throw std::invalid_argument("--rig: found '" + rig + "', expected bench, pendulum, hopper, mabel or all");
   }
   return found->second;
 }
@@ -183,6 +188,8 @@ std::vector<Case> all_cases() {
   add_hidden("hopper", hopper_rows(), all, cases);
   add_none("hopper", 6, cases);
   add_foreign("hopper", hopper_foreign_rows(), cases);
+  add_hidden("mabel", mabel_rows(), all, cases);
+  add_none("mabel", 4, cases);
   return cases;
 }
 

@@ -25,6 +25,7 @@ struct Robot {
   std::string name;
   std::string model;
   std::vector<std::string> experiments;
+  std::string hopping;  ///< in place of experiments: a controller under which it hops, from drawn starts
 };
 
 /// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is
@@ -48,10 +49,11 @@ const std::vector<Robot>& robots();
 /// Throws std::out_of_range when the name is unknown.
 const Robot& robot_of(const Case& one);
 
-/// The tables (table.cpp).
+/// The tables.
 const std::vector<Row>& leg_bench_rows();
 const std::vector<Row>& pendulum_rows();
 const std::vector<Row>& hopper_rows();
+const std::vector<Row>& mabel_rows();
 /// Laws of foreign_laws.h.
 const std::vector<Row>& leg_bench_foreign_rows();
 const std::vector<Row>& pendulum_foreign_rows();
@@ -61,7 +63,7 @@ const std::vector<Row>& hopper_foreign_rows();
 using Pair = std::pair<std::string, std::string>;
 const std::vector<Pair>& leg_bench_pairs();
 
-/// The robots of a rig: bench, pendulum, hopper or all. Throws std::invalid_argument for another name.
+/// The robots of a rig: bench, pendulum, hopper, mabel or all. Throws std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);
 
 /// All cases in the order of the tables.

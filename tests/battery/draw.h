@@ -20,6 +20,8 @@ class Draw {
   double factor();
   /// Normal with deviation 1, at most kMostDeviations from 0.
   double deviations();
+  /// A seed for what draws by itself.
+  std::uint64_t seed() { return random_(); }
 
  private:
   double unit();  ///< in [0, 1)

@@ -8,70 +8,11 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
-#include "tests/battery/foreign_laws.h"
+#include "tests/battery/truth.h"
 #include "validation/compare/compare.h"
-#include "validation/twin/twin.h"
 
 namespace plumbline::battery {
 namespace {
-
-constexpr double kTwinTolerance = 1e-9;
-
-/// Varies what a command does about its mean, which holds the robot against gravity, and what a controller is
-/// asked to follow.
-void vary_amplitudes(validation::Experiment& experiment, Draw& draw) {
-  for (validation::Command& command : experiment.commands) {
-    const double mean = command.values.mean();
-    command.values = (mean + draw.factor() * (command.values.array() - mean)).matrix();
-  }
-  for (validation::Controller& controller : experiment.controllers) {
-    controller.reference *= draw.factor();
-  }
-}
-
-/// The robot with what the case hides in it, and what that is.
-struct Truth {
-  model::Model robot;
-  std::vector<model::EffectUse> hidden;
-  std::string text;
-};
-
-Truth truth_of(const Case& one, const model::Model& bare, Draw& draw, const RunOptions& run) {
-  Truth truth{one.kind == Kind::foreign ? with_foreign_places(bare) : bare, {}, ""};
-  for (const Row& row : one.rows) {
-    const std::string with = drawn_effect(row, one.strength, every_law(), draw);
-    truth.hidden.push_back(validation::parse_effect(with, truth.robot, every_law()));
-    truth.text += (truth.text.empty() ? "" : " ") + with;
-  }
-  if (!run.as_stated) {
-    truth.robot = scattered(truth.robot, draw);
-  }
-  truth.robot.effects.insert(truth.robot.effects.end(), truth.hidden.begin(), truth.hidden.end());
-  return truth;
-}
-
-/// The case's trials in memory. Without a hidden effect the excitation differs from seed to seed instead of
-/// the effect's parameters, because sensors without noise would always give the same data.
-std::vector<validation::Trial> trials_of(const Case& one, const model::Model& bare, const Truth& truth,
-                                         Draw& draw, const RunOptions& run) {
-  validation::TwinOptions options;
-  options.seed = run.seed;
-  options.relative_tolerance = kTwinTolerance;
-  std::vector<validation::Trial> trials;
-  for (const std::string& file : robot_of(one).experiments) {
-    validation::Experiment experiment =
-        validation::read_experiment(std::string(PLUMBLINE_ROOT) + "/" + file, bare);
-    if (one.kind == Kind::none) {
-      vary_amplitudes(experiment, draw);
-    }
-    if (!run.bare_only || experiment.role == validation::Role::held_out) {
-      trials.push_back(validation::twin(truth.robot, experiment, options));
-      trials.back().name = trials.back().file = file;
-    }
-    ++options.seed;
-  }
-  return trials;
-}
 
 bool names(const model::EffectUse& truth, const std::string& effect, const std::string& at) {
   return truth.law->declaration().name == effect && truth.at == at;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/effects/catalogue.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -31,6 +32,13 @@ class RecordedHops : public testing::Test {
     options.hops = 2;
     options.trace = true;
     return hop(model, read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml"), {}, options).trace;
+  }
+
+  static double error_of_flight(std::size_t which, const model::Model& model, const Trial& trial) {
+    constexpr Eigen::Index kSamples = 50;
+    Data data({trial}, {});
+    data.windows = {{0, flights_of(trial).at(which).first, kSamples}};
+    return compare(model, data).scores.train;
   }
 
   const model::Model model_ = mabel("mabel_planar.yaml");
@@ -63,21 +71,17 @@ TEST_F(RecordedHops, AreCutInTheFlights) {
 }
 
 TEST_F(RecordedHops, ThePredictionOfTheFirstFlightIsAtTheFloor) {
-  Trial fall = trial_;
-  const Eigen::Index samples = trial_.contact_events.front().sample - 1;
-  fall.time.conservativeResize(samples);
-  for (Measured& channel : fall.measured) {
-    channel.values.conservativeResize(samples);
-  }
-  for (Command& command : fall.commands) {
-    command.values.conservativeResize(samples);
-  }
-  fall.switches.clear();
-  fall.contact_events.clear();
-  PredictOptions options;
-  options.window = 0.05;
-  const Data data({fall}, options);
-  EXPECT_LT(compare(model_, data).scores.train, 1.1);
+  EXPECT_LT(error_of_flight(0, model_, trial_), 1.1);
+}
+
+TEST_F(RecordedHops, HoldADelayedCommandUntilItArrives) {
+  model::Model late = model_;
+  late.effects.push_back(
+      {effects::Catalogue::all().find("command_delay"), "mLS_left", {model::Quantity{}}, 0});
+  late.effects.back().values.front().value = 2.3e-3;
+  const Trial trial = recorded_trial(late, trace_of(late), 1);
+  EXPECT_LT(error_of_flight(1, late, trial), 1.1);
+  EXPECT_GT(error_of_flight(1, model_, trial), 3.0);
 }
 
 // Through the stance too, where the spring's pulley leaves its stop and meets it again.

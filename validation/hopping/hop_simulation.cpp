@@ -1,7 +1,5 @@
 #include "validation/hopping/hop_simulation.h"
 
-#include <algorithm>
-
 namespace plumbline::validation {
 
 HopSimulation::HopSimulation(const model::Model& model, const controllers::HoppingConfig& config,
@@ -12,6 +10,9 @@ HopSimulation::HopSimulation(const model::Model& model, const controllers::Hoppi
       ode_(plant_, energy, false),
       integrator_(ode_, options),
       period_(config.period),
+      held_(Eigen::MatrixXd::Zero(plant_.motors(),
+                                  integrate::HeldCommands::depth(period_, plant_.delays())),
+            period_, plant_.delays()),
       outputs_(plant_.sensors()),
       command_(Eigen::VectorXd::Zero(plant_.motors())) {}
 
@@ -30,10 +31,19 @@ void HopSimulation::sample() {
 }
 
 void HopSimulation::advance() {
-  std::copy(command_.data(), command_.data() + command_.size(), ode_.command());
-  integrator_.input_changed(true);
+  const Eigen::Index newest = held_.samples() - 1;
+  for (Eigen::Index k = 0; k < (samples_ == 0 ? newest : 0); ++k) {
+    held_.set(k, command_.data());
+  }
+  held_.push(command_.data());
+  const std::vector<double>& breaks = held_.breaks();
+  for (std::size_t b = 0; b < breaks.size(); ++b) {
+    held_.at(newest, b, ode_.command());
+    integrator_.input_changed(true);
+    const double end = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+    integrator_.advance((static_cast<double>(samples_) + end) * period_);
+  }
   ++samples_;
-  integrator_.advance(time());
 }
 
 double HopSimulation::work() const { return energy_ ? integrator_.state()[plant_.states()] : 0.0; }

@@ -6,6 +6,7 @@
 
 #include "contact/terrain.h"
 #include "controllers/hopping_config.h"
+#include "simulator/integrate/held_commands.h"
 #include "simulator/integrate/integrator.h"
 #include "simulator/integrate/plant_ode.h"
 #include "simulator/model/model.h"
@@ -22,7 +23,8 @@ class HopSimulation {
   HopSimulation(const model::Model& model, const controllers::HoppingConfig& config,
                 const integrate::Options& options, const contact::Terrain& terrain = {}, bool energy = false);
 
-  /// Begins at time 0; the controller stays as it is.
+  /// Begins at time 0; the controller stays as it is. Where the model delays a command, the first one holds
+  /// until it arrives.
   void start(const Eigen::VectorXd& state);
   /// Measures, and lets the controller command what holds until the next sample.
   void sample();
@@ -49,6 +51,7 @@ class HopSimulation {
   integrate::PlantOde ode_;
   integrate::Integrator integrator_;
   double period_;
+  integrate::HeldCommands held_;
   long samples_ = 0;
   Eigen::VectorXd outputs_, command_;
   std::vector<model::Touch> touches_;
