@@ -37,6 +37,16 @@ TEST(Summary, NamesSeveralEffects) {
   EXPECT_THAT(text, HasSubstr("Missing: coulomb at drive, viscous at drive and lugre at drive."));
 }
 
+TEST(Summary, SaysWhichWindowsEndEarly) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 12.5, 1.01);
+  diagnosis.windows = 14;
+  EXPECT_THAT(summary(diagnosis), Not(HasSubstr("windows")));
+  diagnosis.cut_windows = 1;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("1 of 14 windows ends early"));
+  diagnosis.cut_windows = 2;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("2 of 14 windows end early"));
+}
+
 TEST(Summary, APartIsNotTheAnswer) {
   const std::string text = summary(found({"coulomb"}, Verdict::unexplained, 12.5, 5.0));
   EXPECT_THAT(text, HasSubstr("Unexplained: the held-out error stays 5.00 times the floor."));

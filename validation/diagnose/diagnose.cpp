@@ -18,34 +18,45 @@ namespace {
 
 class Diagnoser {
  public:
-  /// `data` are the beginnings of the windows, `part` of their lengths.
-  Diagnoser(const effects::Catalogue& catalogue, const Data& data, double part,
+  /// `followed` are the beginnings of the windows, `part` of their lengths.
+  Diagnoser(const effects::Catalogue& catalogue, const Followed& followed, double part,
             const DiagnoseOptions& options, const Progress& progress)
-      : catalogue_(catalogue), data_(data), part_(part), options_(options), progress_(progress) {}
+      : catalogue_(catalogue),
+        data_(followed.data),
+        x0_(followed.x0),
+        part_(part),
+        options_(options),
+        progress_(progress) {}
 
   /// With the model's own numbers exactly as stated, and with them free within what is stated of them: the
-  /// first where that gives an answer and the data do not speak for other numbers. On beginnings only as
-  /// stated: too short to tell masses and inertias, they would leave them free to stand in for anything.
+  /// first where that gives an answer and the data do not speak for other numbers. On beginnings as stated
+  /// unless other numbers explain nearly all: too short to tell masses and inertias, they would leave them
+  /// free to stand in for a part of anything.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
-    if (part_ < 1.0) {
+    const Rung given = diagnosis.ladder.front();
+    const Stage open = is_below(options_.at_floor, given.stage.estimate, data_)
+                           ? given.stage
+                           : with_open_numbers(given.stage, 0, options_.parameter_width, data_);
+    if (open.parameters.empty()) {
       look(options_.most_effects, diagnosis);
       return;
     }
-    const Rung given = diagnosis.ladder.front();
-    const Stage open = with_open_numbers(given.stage, 0, options_.parameter_width, data_);
-    if (open.parameters.empty()) {
-      look(options_.most_effects, diagnosis);
-    } else {
-      const Rung fitted{"own parameters fitted", fit_own(open), part_};
+    const Rung fitted{"own parameters fitted", fit_own(open), part_};
+    if (part_ == 1.0) {
       look_with_own_numbers(given, fitted, diagnosis);
+      return;
     }
+    if (explains_nearly_all(given, fitted)) {
+      restart({given, fitted}, diagnosis);
+    }
+    look(options_.most_effects, diagnosis);
   }
 
   /// What was named on shorter beginnings, on these; and what else is missing here.
   void go_on(Diagnosis& diagnosis) {
     progress_("longer parts of the windows", 0.0);
-    Stage longer = fitted_anew(diagnosis.final_stage, data_);
+    Stage longer = fitted_anew(diagnosis.final_stage, data_, x0_);
     if (!is_below(options_.finished, longer.estimate, data_)) {
       longer = with_fresh_states(longer);
     }
@@ -87,7 +98,7 @@ class Diagnoser {
     Stage& stage = diagnosis.final_stage;
     stage.model = model;
     PredictorPool pool(model, data_);
-    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), x0_, {8, 1e-4});
     diagnosis.ladder.push_back({"as given", {model, {}, given}, part_});
     stage.estimate = given;
   }
@@ -298,50 +309,64 @@ class Diagnoser {
 
   const effects::Catalogue& catalogue_;
   const Data& data_;
+  const std::vector<Eigen::VectorXd>& x0_;  // where the windows begin; empty: to be searched
   double part_;
   const DiagnoseOptions& options_;
   const Progress& progress_;
   Tried first_;  // the first round from the model that nothing was added to
 };
 
+model::Model model_of(const Stage& stage) {
+  return with_values(stage.model, stage.parameters, stage.estimate.theta);
+}
+
 /// On what part of the windows to go on after `part`: as far as the stage can be followed; where it is at the
 /// floor at least one step.
 double further(const Stage& stage, const Data& beginnings, const Data& data, double part,
                const DiagnoseOptions& options) {
   const double least = is_below(options.finished, stage.estimate, beginnings) ? longer_part(part) : part;
-  return std::max(least, reach(with_values(stage.model, stage.parameters, stage.estimate.theta), data));
+  return std::max(least, reach(model_of(stage), data));
 }
 
 /// On the beginnings of the windows over which the model can be followed, and from there on to the whole.
-/// What does not lead to the floor may still lead further, where more can be told.
-void diagnose_by_parts(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+/// What does not lead to the floor may still lead further, where more can be told. Returns the windows on
+/// which it ended.
+Data diagnose_by_parts(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                        const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   double part = reach(model, data);
   for (bool first = true;; first = false) {
-    const Data beginnings = data.beginnings(part);
-    Diagnoser diagnoser(catalogue, beginnings, part, options, progress);
+    const Followed followed =
+        follow(first ? model : model_of(diagnosis.final_stage), data.beginnings(part));
+    Diagnoser diagnoser(catalogue, followed, part, options, progress);
     first ? diagnoser.run(model, diagnosis) : diagnoser.go_on(diagnosis);
-    const double longer = part < 1.0 ? further(diagnosis.final_stage, beginnings, data, part, options) : part;
+    const double longer =
+        part < 1.0 ? further(diagnosis.final_stage, followed.data, data, part, options) : part;
     if (longer <= part) {
       if (first && diagnosis.verdict == Verdict::unexplained) {
         diagnoser.look_for_pair(diagnosis);
       }
-      return;
+      return followed.data;
     }
     if (first) {
-      drop_superfluous(beginnings, options, progress, diagnosis);
+      drop_superfluous(followed.data, options, progress, diagnosis);
     }
     part = longer;
   }
 }
 
 /// What is said of all windows, where candidates were tried on some.
-void finish(const Data& data, std::size_t tried, const DiagnoseOptions& options, const Progress& progress,
+void finish(const Data& data, const Data& tried, const DiagnoseOptions& options, const Progress& progress,
             Diagnosis& diagnosis) {
   const double part = diagnosis.ladder.back().part;
-  const Data all = data.beginnings(part);
-  if (tried < all.windows.size()) {
+  const bool is_some = tried.windows.size() < data.windows.size();
+  const Data beginnings = data.beginnings(part);
+  const Data all = is_some ? follow(model_of(diagnosis.final_stage), beginnings).data : tried;
+  diagnosis.windows = all.windows.size();
+  for (std::size_t w = 0; w < all.windows.size(); ++w) {
+    diagnosis.cut_windows += all.windows[w].count < beginnings.windows[w].count ? 1 : 0;
+  }
+  if (is_some) {
     rescore(all, progress, diagnosis);
   }
   if (diagnosis.ladder.front().part >= part) {  // else they have been tried without on shorter parts
@@ -374,8 +399,8 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   Diagnosis diagnosis;
   const Data some = data.thinned(options.windows);
   try {
-    diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
-    finish(data, some.windows.size(), options, progress, diagnosis);
+    const Data tried = diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
+    finish(data, tried, options, progress, diagnosis);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

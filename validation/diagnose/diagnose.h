@@ -99,6 +99,8 @@ struct Diagnosis {
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened
   bool interrupted = false;
+  std::size_t windows = 0;      ///< on which the last errors are
+  std::size_t cut_windows = 0;  ///< those of them that are not followed to their end (predict/reach.h)
   Stage final_stage;           ///< model with everything accepted, its parameters and estimate
   std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
   const Rung& bare() const { return ladder[bare_rungs - 1]; }

@@ -114,10 +114,10 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
 
 }  // namespace
 
-Stage fitted_anew(Stage stage, const Data& data) {
+Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0) {
   PredictorPool pool(stage.model, data);
   stage.estimate =
-      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {10, 1e-3});
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, 1e-3});
   return stage;
 }
 

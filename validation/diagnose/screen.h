@@ -17,8 +17,9 @@ struct Stage {
   Estimate estimate;
 };
 
-/// The stage with its parameters fitted anew from its model's values.
-Stage fitted_anew(Stage stage, const Data& data);
+/// The stage with its parameters fitted anew from its model's values, and initial states from x0 or, where
+/// that is empty, from the measurements.
+Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0 = {});
 
 /// A candidate with the values from which it is tried, and what the linearised windows promise.
 struct Hypothesis {

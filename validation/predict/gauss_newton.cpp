@@ -99,14 +99,6 @@ bool is_finite(const std::vector<Reduced>& reduced) {
   });
 }
 
-/// Has the model stops or play?
-bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                 const Eigen::VectorXd& theta) {
-  bool any = false;
-  pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
-  return any;
-}
-
 void expect_finite(const std::vector<Reduced>& reduced) {
   if (!is_finite(reduced)) {
     throw std::runtime_error("the prediction is not finite at the start values");

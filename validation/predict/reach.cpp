@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "validation/predict/initial_states.h"
+#include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
 namespace {
@@ -45,7 +45,54 @@ bool can_be_followed(const model::Model& model, const Data& part, Point& at) {
   }
 }
 
+/// The whole, by way of its parts.
+bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
+  const std::vector<FreeParameter> as_it_is;
+  PredictorPool pool(model, data);
+  if (!has_corners(pool, as_it_is, {})) {
+    return false;
+  }
+  const Point at = states_by_parts(pool, as_it_is, {});
+  return !is_lost(data, InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at));
+}
+
+/// Does the next step promise the floor, above which it is?
+std::vector<int> promising(const Data& data, const std::vector<Reduced>& reduced) {
+  std::vector<Reduced> promised = reduced;
+  for (Reduced& one : promised) {
+    one.raw_sse = one.sse;
+  }
+  const std::vector<int> stays_above = above_floor(data, promised);
+  std::vector<int> some;
+  for (const int w : above_floor(data, reduced)) {
+    if (!std::binary_search(stays_above.begin(), stays_above.end(), w)) {
+      some.push_back(w);
+    }
+  }
+  return some;
+}
+
 }  // namespace
+
+Followed follow(const model::Model& model, const Data& data) {
+  constexpr double kLeast = 0.05;
+  const std::vector<FreeParameter> as_it_is;
+  PredictorPool pool(model, data);
+  if (!has_corners(pool, as_it_is, {})) {
+    return {data, {}};
+  }
+  Grown grown;
+  Point at = states_by_parts(pool, as_it_is, {}, &grown);
+  const std::vector<Reduced> reduced =
+      InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
+  std::vector<double> shares(data.windows.size(), 1.0);
+  for (const int w : promising(data, reduced)) {
+    const auto i = static_cast<std::size_t>(w);
+    shares[i] = std::max(kLeast, grown.share[i]);
+    at.x0[i] = grown.x0[i];
+  }
+  return {data.beginnings(shares), at.x0};
+}
 
 double longer_part(double share) {
   const auto* next = std::upper_bound(kTried.begin(), kTried.end(), share);
@@ -53,6 +100,7 @@ double longer_part(double share) {
 }
 
 double reach(const model::Model& model, const Data& data) {
+  constexpr double kMost = 0.5;
   Point straight;
   if (!is_any_curved(model, data) || can_be_followed(model, data, straight)) {
     return 1.0;
@@ -65,7 +113,7 @@ double reach(const model::Model& model, const Data& data) {
     }
     reached = share;
   }
-  return reached;
+  return reached >= kMost && can_be_followed_by_parts(model, data) ? 1.0 : reached;
 }
 
 }  // namespace plumbline::validation

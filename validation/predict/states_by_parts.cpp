@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kFirstPart = 0.1;
 
-/// How much of each window was at the floor, and from which initial state.
-struct Grown {
-  std::vector<double> share;
-  std::vector<Eigen::VectorXd> x0;
-};
-
 /// Those of the windows that are well at the floor and settled there: a beginning that is nearly at it may be
 /// in a minimum that leads nowhere.
 void keep(const Data& part, const std::vector<double>& shares, const Point& at,
@@ -114,8 +108,15 @@ void grow(const PredictorPool& pool, const std::vector<FreeParameter>& parameter
 
 }  // namespace
 
+bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                 const Eigen::VectorXd& theta) {
+  bool any = false;
+  pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
+  return any;
+}
+
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& theta) {
+                      const Eigen::VectorXd& theta, Grown* how_far) {
   const std::size_t count = pool.data().windows.size();
   Point at{theta, {}};
   Grown grown{std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)};
@@ -133,6 +134,9 @@ Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& par
   const std::vector<int> open = above_floor(pool.data(), reduced);
   begin_anew(pool, parameters, open, at, grown);
   grow(pool, parameters, open, grown, at);
+  if (how_far != nullptr) {
+    *how_far = std::move(grown);
+  }
   return at;
 }
 

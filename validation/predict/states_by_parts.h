@@ -5,6 +5,12 @@
 
 namespace plumbline::validation {
 
+/// How much of each window was brought to the floor, and from which initial state.
+struct Grown {
+  std::vector<double> share;
+  std::vector<Eigen::VectorXd> x0;
+};
+
 /// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
 /// the windows, then longer ones, each from where the one before ended. A window that is above the floor
 /// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
@@ -12,6 +18,10 @@ namespace plumbline::validation {
 /// from there in steps as small as it takes: a motion that runs away from what it nearly was allows only
 /// small ones.
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& theta);
+                      const Eigen::VectorXd& theta, Grown* how_far = nullptr);
+
+/// Has the model stops or play?
+bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                 const Eigen::VectorXd& theta);
 
 }  // namespace plumbline::validation

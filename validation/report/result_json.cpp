@@ -118,6 +118,8 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["unexplained_share"] = diagnosis.unexplained_share;
   json["candidates"] = diagnosis.candidates;
   json["interrupted"] = diagnosis.interrupted;
+  json["windows"] = diagnosis.windows;
+  json["cut_windows"] = diagnosis.cut_windows;
   for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "pairs", "ladder"}) {
     json[key] = nlohmann::json::array();
   }

@@ -90,7 +90,9 @@ std::string finding_sentences(const Finding& finding, Verdict verdict) {
           : "");
 }
 
-std::string part_sentence(const Diagnosis& diagnosis) {
+namespace {
+
+std::string of_beginnings(const Diagnosis& diagnosis) {
   const double first = diagnosis.ladder.front().part;
   const double last = diagnosis.ladder.back().part;
   if (first >= 1.0) {
@@ -103,6 +105,20 @@ std::string part_sentence(const Diagnosis& diagnosis) {
     return where + " With what was found the last error is that of the whole windows.";
   }
   return where + fmt::format(" What was found was followed over the first {:.0f} %.", 100.0 * last);
+}
+
+}  // namespace
+
+std::string part_sentence(const Diagnosis& diagnosis) {
+  std::string said = of_beginnings(diagnosis);
+  if (diagnosis.cut_windows > 0) {
+    said += fmt::format(
+        "{}{} of {} windows end{} early: where the motion runs to behind that depends more finely on where it "
+        "begins than can be searched.",
+        said.empty() ? "" : " ", diagnosis.cut_windows, diagnosis.windows,
+        diagnosis.cut_windows == 1 ? "s" : "");
+  }
+  return said;
 }
 
 std::string summary(const Diagnosis& diagnosis) {

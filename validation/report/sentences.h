@@ -14,8 +14,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis);
 /// "Missing: coulomb at drive. With it the held-out error falls from ... to ..."
 std::string finding_sentences(const Finding& finding, Verdict verdict);
 
-/// On what part of the windows the model was diagnosed, and how far it goes with what was found; empty where
-/// that is the whole.
+/// On what part of the windows the model was diagnosed, how far it goes with what was found, and how many
+/// windows end early; empty where that is the whole.
 std::string part_sentence(const Diagnosis& diagnosis);
 
 /// The whole answer in about two sentences.
