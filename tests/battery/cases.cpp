@@ -166,7 +166,7 @@ std::vector<std::string> robots_of_rig(const std::string& rig) {
                                                              {"pendulum", {"pendulum"}},
                                                              {"hopper", {"hopper"}},
                                                              {"mabel", {"mabel"}},
-                                                             {"all", {"leg_bench", "pendulum", "hopper", "mabel"}}};
+                                                             {"all", {"leg_bench", "pendulum", "hopper"}}};
   const auto found = rigs.find(rig);
   if (found == rigs.end()) {
     throw std::invalid_argument("--rig: found '" + rig + "', expected bench, pendulum, hopper, mabel or all");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -108,6 +109,10 @@ void check_cases(const std::map<std::string, model::Model>& models, Checks& chec
 
 void check_experiments(const std::map<std::string, model::Model>& models, Checks& checks) {
   for (const Robot& robot : robots()) {
+    if (!robot.hopping.empty()) {
+      checks.expect(std::filesystem::exists(in_root(robot.hopping)), robot.name + " lacks its controller");
+      continue;
+    }
     bool train = false;
     bool held_out = false;
     for (const std::string& file : robot.experiments) {

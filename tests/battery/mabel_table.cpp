@@ -2,8 +2,8 @@
 
 namespace plumbline::battery {
 
-// Nominal values: weak, medium and strong leave the model as it is with a held-out error of about 3, 10 and 40
-// floors where its own numbers are as stated (`battery --rig mabel --as-stated --bare`). Of what the model
+// Nominal values: weak, medium and strong leave the model as it is with a held-out error of about 3, 10 and
+// 40 floors where its own numbers are as stated (`battery --rig mabel --as-stated --bare`). Of what the model
 // states of its own numbers (masses, rotor inertias, torque constants, springs) only a mass is hidden here.
 const std::vector<Row>& mabel_rows() {
   static const std::vector<Row> kRows{

@@ -121,7 +121,8 @@ int main(int argc, char** argv) {
   app.add_option("--only", inputs.only, "only cases whose name contains SUBSTRING; may be repeated")
       ->type_name("SUBSTRING")
       ->allow_extra_args(false);
-  app.add_option("--rig", inputs.rigs, "bench, pendulum, hopper, mabel or all; may be repeated")
+  app.add_option("--rig", inputs.rigs,
+                 "bench, pendulum, hopper, mabel or all but mabel, whose hops take minutes; may be repeated")
       ->type_name("RIG")
       ->allow_extra_args(false)
       ->capture_default_str();

@@ -60,8 +60,8 @@ TEST(DiagnosedHops, NothingIsMissingWhereTheModelIsTheMachine) {
   const Data data({recorded_hops(machine, {0.04, -0.4, 0.0}, Role::train, 1),
                    recorded_hops(machine, {0.06, -0.2, 0.0}, Role::held_out, 1)},
                   {});
-  const Diagnosis diagnosis = diagnose(machine, some_laws(), data, {},
-                                       [](const std::string& /*what*/, double /*fraction*/) {});
+  const Diagnosis diagnosis =
+      diagnose(machine, some_laws(), data, {}, [](const std::string& /*what*/, double /*fraction*/) {});
   EXPECT_EQ(diagnosis.verdict, Verdict::nothing_missing);
   EXPECT_EQ(diagnosis.ladder.front().part, 1.0);
   EXPECT_LT(diagnosis.ladder.front().held_out(), 1.05);

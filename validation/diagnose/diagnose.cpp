@@ -336,8 +336,7 @@ Data diagnose_by_parts(const model::Model& model, const effects::Catalogue& cata
   progress("how far the model can be followed", 0.0);
   double part = reach(model, data);
   for (bool first = true;; first = false) {
-    const Followed followed =
-        follow(first ? model : model_of(diagnosis.final_stage), data.beginnings(part));
+    const Followed followed = follow(first ? model : model_of(diagnosis.final_stage), data.beginnings(part));
     Diagnoser diagnoser(catalogue, followed, part, options, progress);
     first ? diagnoser.run(model, diagnosis) : diagnoser.go_on(diagnosis);
     const double longer =

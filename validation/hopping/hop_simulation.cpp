@@ -10,8 +10,7 @@ HopSimulation::HopSimulation(const model::Model& model, const controllers::Hoppi
       ode_(plant_, energy, false),
       integrator_(ode_, options),
       period_(config.period),
-      held_(Eigen::MatrixXd::Zero(plant_.motors(),
-                                  integrate::HeldCommands::depth(period_, plant_.delays())),
+      held_(Eigen::MatrixXd::Zero(plant_.motors(), integrate::HeldCommands::depth(period_, plant_.delays())),
             period_, plant_.delays()),
       outputs_(plant_.sensors()),
       command_(Eigen::VectorXd::Zero(plant_.motors())) {}

@@ -83,8 +83,7 @@ Followed follow(const model::Model& model, const Data& data) {
   }
   Grown grown;
   Point at = states_by_parts(pool, as_it_is, {}, &grown);
-  const std::vector<Reduced> reduced =
-      InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
+  const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
   std::vector<double> shares(data.windows.size(), 1.0);
   for (const int w : promising(data, reduced)) {
     const auto i = static_cast<std::size_t>(w);
