@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-Diagnosis found(std::vector<std::string> effects, Verdict verdict, double before, double after) {
+Diagnosis found(const std::vector<std::string>& effects, Verdict verdict, double before, double after) {
   Diagnosis diagnosis;
   diagnosis.verdict = verdict;
   diagnosis.ladder.resize(2);  // train errors stay 0
