@@ -56,8 +56,8 @@ std::vector<Trial> hops_of(const Case& one, const Truth& truth, Draw& draw, cons
   validation::HopOptions options;
   options.hops = kHops;
   options.trace = true;
+  options.integrator.absolute_tolerance *= kTwinTolerance / options.integrator.relative_tolerance;
   options.integrator.relative_tolerance = kTwinTolerance;
-  options.integrator.absolute_tolerance *= kTwinTolerance / 1e-5;
   std::vector<Trial> trials;
   for (const Role role : {Role::train, Role::held_out}) {
     if (run.bare_only && role == Role::train) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "validation/predict/states_by_parts.h"
 
@@ -90,7 +91,7 @@ Followed follow(const model::Model& model, const Data& data) {
     shares[i] = std::max(kLeast, grown.share[i]);
     at.x0[i] = grown.x0[i];
   }
-  return {data.beginnings(shares), at.x0};
+  return {data.beginnings(shares), std::move(at.x0)};
 }
 
 double longer_part(double share) {

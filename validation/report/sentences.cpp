@@ -114,8 +114,7 @@ std::string part_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.cut_windows > 0) {
     said += fmt::format(
         "{}{} of {} windows end{} early: where the motion runs to behind that depends more finely on where "
-        "it "
-        "begins than can be searched.",
+        "it begins than can be searched.",
         said.empty() ? "" : " ", diagnosis.cut_windows, diagnosis.windows,
         diagnosis.cut_windows == 1 ? "s" : "");
   }
