@@ -34,7 +34,7 @@ effects::Catalogue some_laws(const std::set<std::string>& names) {
 
 Stage as_given(const model::Model& model, const Data& data) {
   PredictorPool pool(model, data);
-  return {model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
+  return {model, {}, estimate_states(pool)};
 }
 
 }  // namespace plumbline::validation

@@ -163,7 +163,7 @@ TEST_F(RecordedHops, SlopesThroughTouchdownAndStopAgreeWithDifferences) {
   const Data all({trial_}, {});
   const Data data = all.beginnings(0.2);
   PredictorPool pool(model_, data);
-  const Estimate found = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  const Estimate found = estimate_states(pool);
   pool.with(0, {}, {}, [&](Predictor& predictor) {
     const Window& window = data.windows.front();
     const Eigen::VectorXd up = model::observe_place(predictor.plant(), "hip_z", 1.0).row.normalized();

@@ -75,7 +75,7 @@ Comparison compare(const model::Model& model, const Data& data, const Estimate& 
 
 Comparison compare(const model::Model& model, const Data& data) {
   PredictorPool pool(model, data);
-  const Estimate estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  const Estimate estimate = estimate_states(pool);
   Comparison comparison = compare(model, data, estimate);
   comparison.phases = phase_errors(pool, {}, estimate);
   return comparison;

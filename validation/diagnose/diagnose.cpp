@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "simulator/trace/error.h"
+#include "validation/diagnose/accept.h"
 #include "validation/diagnose/choose.h"
-#include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/finish.h"
-#include "validation/diagnose/look_ahead.h"
 #include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/revise.h"
 #include "validation/predict/reach.h"
 
@@ -65,32 +65,8 @@ class Diagnoser {
     look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
   }
 
-  /// After run(), where one effect after the other leads nowhere: two effects at once, from the model with
-  /// nothing added. They are an answer only at the floor: any two laws help where nothing fits.
-  void look_for_pair(Diagnosis& diagnosis) const {
-    if (first_.refits.empty() || is_below(options_.finished, first_.refits.front().estimate, data_)) {
-      return;
-    }
-    const std::vector<Pair> pairs = look_ahead(first_, catalogue_, data_, options_, progress_);
-    std::vector<Refit> refits;
-    refits.reserve(pairs.size());
-    for (const Pair& pair : pairs) {
-      refits.push_back(pair.refit);
-    }
-    const Choice choice = choose(first_.stage, refits, data_, options_);
-    diagnosis.pairs = pair_rows(pairs, choice);
-    if (accept_half(pairs, diagnosis) || choice.named < 0) {
-      return;
-    }
-    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
-    const Stage both = after(pair.refit);
-    const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data_);
-    const bool needed =
-        judged(both.estimate, data_) < (1.0 - options_.material) * judged(single.estimate, data_);
-    if (is_below(options_.finished, both.estimate, data_) && needed) {
-      accept_pair(pairs, choice, single, diagnosis);
-    }
-  }
+  /// The first round from the model that nothing was added to; empty where none was needed.
+  const Tried& first() const { return first_; }
 
  private:
   void start(const model::Model& model, Diagnosis& diagnosis) {
@@ -98,7 +74,7 @@ class Diagnoser {
     Stage& stage = diagnosis.final_stage;
     stage.model = model;
     PredictorPool pool(model, data_);
-    const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), x0_, {8, 1e-4});
+    const Estimate given = estimate_states(pool, x0_);
     diagnosis.ladder.push_back({"as given", {model, {}, given}, part_});
     stage.estimate = given;
   }
@@ -108,7 +84,7 @@ class Diagnoser {
   Stage with_fresh_states(const Stage& fitted) const {
     Stage fresh{with_values(fitted.model, fitted.parameters, fitted.estimate.theta), fitted.parameters, {}};
     PredictorPool pool(fresh.model, data_);
-    const Estimate states = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    const Estimate states = estimate_states(pool);
     fresh.estimate = gauss_newton(pool, fresh.parameters, fitted.estimate.theta, states.x0, {10, 1e-4});
     return judged(fresh.estimate, data_) < judged(fitted.estimate, data_) ? fresh : fitted;
   }
@@ -230,7 +206,7 @@ class Diagnoser {
     const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
     diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
     if (choice.named >= 0) {
-      accept(tried, choice, diagnosis);
+      accept(tried, choice, data_, diagnosis);
     }
     diagnosis.leads.clear();
     for (const RankRow& row : rows) {
@@ -247,73 +223,13 @@ class Diagnoser {
     return choice.named >= 0;
   }
 
-  void accept(const Tried& tried, const Choice& choice, Diagnosis& diagnosis) const {
-    const Refit& refit = tried.refits[static_cast<std::size_t>(choice.named)];
-    const Candidate& candidate = tried.candidates[static_cast<std::size_t>(refit.candidate)];
-    Finding finding = finding_of(candidate);
-    finding.selected_share = choice.share;
-    for (const std::size_t i : choice.rivals) {
-      const Refit& rival = tried.refits[i];
-      add_rival(tried.candidates[static_cast<std::size_t>(rival.candidate)],
-                correlation(tried.stage, after(refit), after(rival), data_), finding);
-    }
-    set_errors(tried.stage.estimate, refit.estimate, finding);
-    const Stage next = after(refit);
-    std::vector<Finding> accepted = diagnosis.accepted;
-    accepted.push_back(finding);
-    set_values(next, data_, accepted);
-    diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
-    diagnosis.accepted = accepted;
-    diagnosis.ladder.push_back({"+ " + candidate.label(), diagnosis.final_stage, part_});
-  }
-
-  /// One effect that leaves nothing alone, found beside another.
-  bool accept_half(const std::vector<Pair>& pairs, Diagnosis& diagnosis) const {
-    Tried halves = first_;
-    halves.refits = halves_of(first_, pairs, data_, options_, progress_);
-    const Choice choice = choose(first_.stage, halves.refits, data_, options_);
-    if (choice.named < 0) {
-      return false;
-    }
-    diagnosis.pairs.clear();
-    diagnosis.accepted.clear();
-    diagnosis.ladder.resize(diagnosis.bare_rungs);
-    accept(halves, choice, diagnosis);
-    return true;
-  }
-
-  void accept_pair(const std::vector<Pair>& pairs, const Choice& choice, const Stage& single,
-                   Diagnosis& diagnosis) const {
-    const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
-    const Estimate& before = first_.stage.estimate;
-    Finding first = finding_of(pair.first);
-    Finding second = finding_of(pair.second);
-    set_errors(before, single.estimate, first);
-    set_errors(single.estimate, pair.refit.estimate, second);
-    first.selected_share = second.selected_share = choice.share;
-    first.together_with = pair.second.label();
-    second.together_with = pair.first.label();
-    for (const std::size_t i : choice.rivals) {
-      add_pair_rivals(pairs[i], pair,
-                      correlation(first_.stage, after(pair.refit), after(pairs[i].refit), data_), first,
-                      second);
-    }
-    std::vector<Finding> accepted{first, second};
-    set_values(after(pair.refit), data_, accepted);
-    diagnosis.ladder.resize(diagnosis.bare_rungs);
-    diagnosis.ladder.push_back({"+ " + pair.first.label(), single, part_});
-    diagnosis.final_stage = after(pair.refit);
-    diagnosis.ladder.push_back({"+ " + pair.second.label(), diagnosis.final_stage, part_});
-    diagnosis.accepted = accepted;
-  }
-
   const effects::Catalogue& catalogue_;
   const Data& data_;
   const std::vector<Eigen::VectorXd>& x0_;  // where the windows begin; empty: to be searched
   double part_;
   const DiagnoseOptions& options_;
   const Progress& progress_;
-  Tried first_;  // the first round from the model that nothing was added to
+  Tried first_;
 };
 
 model::Model model_of(const Stage& stage) {
@@ -343,7 +259,7 @@ Data diagnose_by_parts(const model::Model& model, const effects::Catalogue& cata
         part < 1.0 ? further(diagnosis.final_stage, followed.data, data, part, options) : part;
     if (longer <= part) {
       if (first && diagnosis.verdict == Verdict::unexplained) {
-        diagnoser.look_for_pair(diagnosis);
+        look_for_pair(diagnoser.first(), catalogue, followed.data, options, progress, diagnosis);
       }
       return followed.data;
     }

@@ -86,7 +86,7 @@ void take_open_values(const Data& all, Diagnosis& diagnosis) {
   const Prediction predicted = stage.estimate.predicted;
   stage.model = with_values(stage.model, stage.parameters, predicted.theta);
   PredictorPool pool(stage.model, all);
-  stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  stage.estimate = estimate_states(pool);
   stage.estimate.theta = predicted.theta;
   stage.estimate.predicted = predicted;
   diagnosis.ladder.back().stage = stage;

@@ -150,7 +150,7 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   check_can_move(model, parameters);
   progress("the model as given", 0.0);
   PredictorPool pool(model, data);
-  const Estimate given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+  const Estimate given = estimate_states(pool);
   set_typical(model, data, parameters);
   progress("fitting " + std::to_string(parameters.size()) + " parameters", 0.2);
   FitNumbers numbers;

@@ -225,6 +225,10 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   }
 }
 
+Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0) {
+  return gauss_newton(pool, {}, Eigen::VectorXd(), start_x0, {8, 1e-4});
+}
+
 Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
           const Eigen::VectorXd& units) {
   Room b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};

@@ -82,7 +82,7 @@ struct Fitted {
 Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters, bool fit,
                const MethodOptions& options) {
   Fitted fitted;
-  fitted.given = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {kStateIterations, 1e-4});
+  fitted.given = estimate_states(pool);
   fitted.numbers.before = values_of(pool.model(), parameters);
   if (fit) {
     fitted.estimate = gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0,

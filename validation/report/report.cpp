@@ -110,7 +110,7 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
     const model::Model one = model::read_model(file, catalogue);
     PredictorPool pool(one, data);
     ladder.push_back(
-        {rung_name(one, known), {one, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})}});
+        {rung_name(one, known), {one, {}, estimate_states(pool)}});
     known = effect_names(one);
   }
   return ladder;
@@ -128,7 +128,7 @@ std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, c
     progress("whole windows: " + rung.name, 0.0);
     const Eigen::VectorXd theta = rung.stage.estimate.theta;
     PredictorPool pool(fitted(rung.stage), data);
-    rung.stage.estimate = gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4});
+    rung.stage.estimate = estimate_states(pool);
     rung.stage.estimate.theta = theta;
     rung.part = 1.0;
   }

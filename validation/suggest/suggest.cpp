@@ -49,7 +49,7 @@ std::vector<Explanation> explain(const model::Model& model, const effects::Catal
                                  const Progress& progress) {
   progress("the model as given", 0.0);
   PredictorPool pool(model, data);
-  const Stage stage{model, {}, gauss_newton(pool, {}, Eigen::VectorXd(), {}, {8, 1e-4})};
+  const Stage stage{model, {}, estimate_states(pool)};
   const std::vector<Candidate> all = list_candidates(pool, catalogue, {}, stage.estimate);
   std::vector<Explanation> explanations;
   for (const std::string& name : names) {

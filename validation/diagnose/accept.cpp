@@ -1,0 +1,58 @@
+#include "validation/diagnose/accept.h"
+
+#include "validation/diagnose/correlation.h"
+#include "validation/diagnose/findings.h"
+
+namespace plumbline::validation {
+
+void accept(const Tried& tried, const Choice& choice, const Data& data, Diagnosis& diagnosis) {
+  const Refit& refit = tried.refits[static_cast<std::size_t>(choice.named)];
+  const Candidate& candidate = tried.candidates[static_cast<std::size_t>(refit.candidate)];
+  const Stage next = after(refit);
+  Finding finding = finding_of(candidate);
+  finding.selected_share = choice.share;
+  for (const std::size_t i : choice.rivals) {
+    const Refit& rival = tried.refits[i];
+    add_rival(tried.candidates[static_cast<std::size_t>(rival.candidate)],
+              correlation(tried.stage, next, after(rival), data), finding);
+  }
+  set_errors(tried.stage.estimate, refit.estimate, finding);
+  std::vector<Finding> accepted = diagnosis.accepted;
+  accepted.push_back(finding);
+  set_values(next, data, accepted);
+  diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
+  diagnosis.accepted = accepted;
+  diagnosis.ladder.push_back({"+ " + candidate.label(), next, diagnosis.ladder.back().part});
+}
+
+void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choice& choice,
+                 const Stage& single, const Data& data, Diagnosis& diagnosis) {
+  const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
+  const Stage both = after(pair.refit);
+  Finding first = finding_of(pair.first);
+  Finding second = finding_of(pair.second);
+  set_errors(tried.stage.estimate, single.estimate, first);
+  set_errors(single.estimate, pair.refit.estimate, second);
+  first.selected_share = second.selected_share = choice.share;
+  first.together_with = pair.second.label();
+  second.together_with = pair.first.label();
+  for (const std::size_t i : choice.rivals) {
+    add_pair_rivals(pairs[i], pair, correlation(tried.stage, both, after(pairs[i].refit), data), first,
+                    second);
+  }
+  std::vector<Finding> accepted{first, second};
+  set_values(both, data, accepted);
+  drop_accepted(diagnosis);
+  const double part = diagnosis.ladder.back().part;
+  diagnosis.ladder.push_back({"+ " + pair.first.label(), single, part});
+  diagnosis.final_stage = both;
+  diagnosis.ladder.push_back({"+ " + pair.second.label(), both, part});
+  diagnosis.accepted = accepted;
+}
+
+void drop_accepted(Diagnosis& diagnosis) {
+  diagnosis.accepted.clear();
+  diagnosis.ladder.resize(diagnosis.bare_rungs);
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,57 @@
+#include "validation/diagnose/pair_step.h"
+
+#include "validation/diagnose/accept.h"
+#include "validation/diagnose/findings.h"
+#include "validation/diagnose/revise.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// One effect that leaves nothing alone, found beside another.
+bool accept_half(const Tried& first, const std::vector<Pair>& pairs, const Data& data,
+                 const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+  Tried halves = first;
+  halves.refits = halves_of(first, pairs, data, options, progress);
+  const Choice choice = choose(first.stage, halves.refits, data, options);
+  if (choice.named < 0) {
+    return false;
+  }
+  diagnosis.pairs.clear();
+  drop_accepted(diagnosis);
+  accept(halves, choice, data, diagnosis);
+  return true;
+}
+
+Choice choose_pair(const Tried& first, const std::vector<Pair>& pairs, const Data& data,
+                   const DiagnoseOptions& options) {
+  std::vector<Refit> refits;
+  refits.reserve(pairs.size());
+  for (const Pair& pair : pairs) {
+    refits.push_back(pair.refit);
+  }
+  return choose(first.stage, refits, data, options);
+}
+
+}  // namespace
+
+void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, const Data& data,
+                   const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+  if (first.refits.empty() || is_below(options.finished, first.refits.front().estimate, data)) {
+    return;
+  }
+  const std::vector<Pair> pairs = look_ahead(first, catalogue, data, options, progress);
+  const Choice choice = choose_pair(first, pairs, data, options);
+  diagnosis.pairs = pair_rows(pairs, choice);
+  if (accept_half(first, pairs, data, options, progress, diagnosis) || choice.named < 0) {
+    return;
+  }
+  const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
+  const Stage both = after(pair.refit);
+  const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data);
+  const bool needed = judged(both.estimate, data) < (1.0 - options.material) * judged(single.estimate, data);
+  if (is_below(options.finished, both.estimate, data) && needed) {
+    accept_pair(first, pairs, choice, single, data, diagnosis);
+  }
+}
+
+}  // namespace plumbline::validation
