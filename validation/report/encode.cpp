@@ -5,9 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
-
-#include "simulator/trace/file_text.h"
 
 namespace plumbline::validation {
 namespace {
@@ -43,23 +40,6 @@ std::string base64(const void* bytes, std::size_t count) {
   text.resize(static_cast<std::size_t>(length));
   return text;
 }
-
-std::string sha256_of(const std::string& bytes) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("libcrypto has no SHA-256");
-  }
-  static const char* const kDigits = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kDigits[digest[i] >> 4U];
-    text += kDigits[digest[i] & 15U];
-  }
-  return text;
-}
-
-std::string sha256_of_file(const std::string& path) { return sha256_of(read_text(path)); }
 
 std::string floats(const Eigen::VectorXd& values) {
   const Eigen::VectorXf shorter = values.cast<float>();

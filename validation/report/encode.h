@@ -13,11 +13,6 @@ namespace plumbline::validation {
 /// RFC 4648, with padding.
 std::string base64(const void* bytes, std::size_t count);
 
-/// SHA-256 of a file's content, 64 hexadecimal digits (FIPS 180-4, by OpenSSL's libcrypto).
-/// Throws InputError when it cannot be read.
-std::string sha256_of_file(const std::string& path);
-std::string sha256_of(const std::string& bytes);
-
 /// Little-endian 32-bit floats in base64.
 std::string floats(const Eigen::VectorXd& values);
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "validation/report/encode.h"
+#include "simulator/trace/sha256.h"
 
 namespace plumbline::validation {
 namespace {
