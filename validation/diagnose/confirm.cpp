@@ -180,26 +180,43 @@ bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) 
   return !refits.empty() && refits.front().square() <= 2.0 * options.finished * options.finished;
 }
 
+/// A full refit, if it can be had.
+void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Progress& progress) {
+  progress("finishing " + candidate.label(), 0.9);
+  Refit further = one;
+  try {
+    continue_refit(further, data, 16);
+    one = std::move(further);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return;  // where the fit would go it cannot be integrated: it stays where it is
+  }
+}
+
+/// The best so far, in full before the others are tried, where it explains nearly all: once it is at the
+/// floor they need not be.
+void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::vector<Candidate>& candidates,
+                   const Data& data, const Progress& progress) {
+  constexpr double kLeft = 0.1;
+  const Scores& given = stage.estimate.predicted.scores;
+  Refit& leader = refits.front();
+  if (!leader.estimate.converged &&
+      leader.square() < kLeft * (given.train * given.train + given.held_out * given.held_out)) {
+    finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, progress);
+  }
+}
+
 /// Full refits of those that are near the best; above the floor of the first few in any case: the best so far
 /// may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
             const DiagnoseOptions& options, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
-  const bool above = !at_floor(refits, options);
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
     const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
-    if (!one.estimate.converged && (near || (above && r < kFirst))) {
-      progress("finishing " + candidates[static_cast<std::size_t>(one.candidate)].label(), 0.9);
-      Refit further = one;
-      try {
-        continue_refit(further, data, 16);
-        one = std::move(further);
-      } catch (const Stopped&) {
-        throw;
-      } catch (const std::runtime_error&) {
-        continue;  // where the fit would go it cannot be integrated: it stays where it is
-      }
+    if (!one.estimate.converged && (near || (r < kFirst && !at_floor(refits, options)))) {
+      finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, progress);
     }
   }
   sort_by_error(refits);
@@ -268,6 +285,9 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       return;  // it cannot be integrated: no explanation of these trials
     }
     sort_by_error(refits);
+    if (refits.size() == 2) {
+      finish_leader(stage, refits, candidates, data, progress);
+    }
   };
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
