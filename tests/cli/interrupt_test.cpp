@@ -53,6 +53,19 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   succeed({"check", "found.yaml"});
 }
 
+TEST_F(Interrupt, DiagnoseGoesOnFromItsResults) {
+  make_long_trial();
+  const std::vector<std::string> arguments{"diagnose", "long/steps", "--resume", "kept.txt"};
+  const Outcome first = interrupted_at("screening", arguments);
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.out, testing::HasSubstr("The same command goes on from the results in kept.txt"));
+  interrupted_at("going on from", arguments);
+  replace("long/steps/trial.yaml", "role: train", "role: train # again");
+  const Outcome other = plumbline(arguments);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, testing::HasSubstr("kept.txt:1: found results of other files"));
+}
+
 TEST_F(Interrupt, DiagnoseEndsCleanlyBeforeAnythingIsFinished) {
   make_long_trial();
   const Outcome outcome = interrupted_at(

@@ -4,6 +4,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
@@ -11,6 +12,8 @@
 #include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/unexplained.h"
+#include "validation/predict/kept_results.h"
+#include "validation/report/repeat_json.h"
 #include "validation/report/result_json.h"
 #include "validation/report/sentences.h"
 
@@ -207,12 +210,27 @@ void save_model(const Diagnosis& diagnosis, const model::Model& given, const std
                        model::known_effects());
 }
 
+/// Long work then keeps its results in the file.
+void keep_results(const Loaded& loaded, const std::string& file, const std::vector<std::string>& written) {
+  if (file.empty()) {
+    return;
+  }
+  if (std::find(written.begin(), written.end(), file) != written.end()) {
+    throw InputError({file, 0, "--resume"}, "the file of --save or --json", "a file of its own");
+  }
+  const std::string inputs = validation::inputs_hash(loaded.model, loaded.data->trials);
+  loaded.data->kept = std::make_shared<validation::KeptResults>(file, inputs);
+  if (loaded.data->kept->found() > 0) {
+    fmt::print(stderr, "going on from {} results in {}\n", loaded.data->kept->found(), file);
+  }
+}
+
 }  // namespace
 
 void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   struct Options {
     Inputs inputs;
-    std::string save;
+    std::string save, resume;
     validation::DiagnoseOptions diagnose;
   };
   auto options = std::make_shared<Options>();
@@ -221,6 +239,10 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("--without", options->inputs.without, "effects to leave out of the catalogue")
       ->type_name("EFFECT");
   command->add_option("--save", options->save, "write the model with what was found as an overlay")
+      ->type_name("FILE");
+  command
+      ->add_option("--resume", options->resume,
+                   "keep results in FILE as they come, and go on from those in it")
       ->type_name("FILE");
   command->add_option("--most", options->diagnose.most_effects, "most effects to accept")
       ->capture_default_str();
@@ -231,7 +253,9 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->callback([options] {
     const effects::Catalogue catalogue = catalogue_for(options->inputs);
     check_writable(options->save);
+    check_writable(options->resume);
     const Loaded loaded = load(options->inputs, model::known_effects());
+    keep_results(loaded, options->resume, {options->save, options->inputs.json});
     Diagnosis diagnosis;
     {
       ProgressLine progress;
@@ -246,6 +270,9 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     write_json(validation::to_json(diagnosis, left), options->inputs.json);
     print(diagnosis);
     print_unexplained(left);
+    if (diagnosis.interrupted && !options->resume.empty()) {
+      fmt::print("\nThe same command goes on from the results in {}.\n", options->resume);
+    }
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
       save_model(diagnosis, loaded.model, options->save);
     }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/diagnose/promise.h"
 #include "validation/diagnose/tangents.h"
+#include "validation/predict/kept_keys.h"
 
 namespace plumbline::validation {
 namespace {
@@ -45,29 +47,69 @@ struct Part {
   double train_share, held_out_share;
 };
 
-void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
-                  const Data& data, const Part& part) {
-  const Extended extended =
-      extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
+/// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
+Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
+                   const std::vector<int>& windows) {
   PredictorPool pool(extended.model, data);
   const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
   const std::vector<Eigen::VectorXd> measured(data.windows.size());
   const std::vector<Reduced> reduced =
-      reduce(pool, part.windows, extended.parameters, extended.theta, measured, units);
-  const Sum train = sum_of(reduced, part.windows, data, Role::train);
-  const Sum held_out = sum_of(reduced, part.windows, data, Role::held_out);
+      reduce(pool, windows, extended.parameters, extended.theta, measured, units);
+  const Sum train = sum_of(reduced, windows, data, Role::train);
+  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
   std::vector<Eigen::Index> chosen(extended.parameters.size());
   for (std::size_t p = 0; p < chosen.size(); ++p) {
     chosen[p] = static_cast<Eigen::Index>(p);
   }
   Room bounds = room(extended.parameters, extended.theta, units);
   // A linearisation far from null is trusted for about a factor of two.
-  for (Eigen::Index p = static_cast<Eigen::Index>(stage.parameters.size()); p < units.size(); ++p) {
+  for (Eigen::Index p = units.size() - static_cast<Eigen::Index>(own); p < units.size(); ++p) {
     bounds.lower[p] = std::max(bounds.lower[p], -1.0);
     bounds.upper[p] = std::min(bounds.upper[p], 1.0);
   }
   const Prior known = prior(extended.parameters, units, extended.theta);
-  const Promise promise = promise_of(train, held_out, chosen, known, bounds);
+  return promise_of(train, held_out, chosen, known, bounds);
+}
+
+/// An infinite one where the model cannot be integrated on these trials: it is no explanation of them.
+Promise promise_unless_lost(const Extended& extended, std::size_t own, const Data& data,
+                            const std::vector<int>& windows) {
+  try {
+    return promise_at(extended, own, data, windows);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(extended.parameters.size())), kNone, kNone};
+  }
+}
+
+Promise kept_promise(const Extended& extended, std::size_t own, const Data& data,
+                     const std::vector<int>& windows) {
+  ResultKey key = key_of("screen", extended.model, data);
+  add_parameters(extended.parameters, key);
+  key.numbers.add(extended.theta).add(static_cast<double>(own));
+  for (const int w : windows) {
+    key.numbers.add(w);
+  }
+  const Record record = kept(data, key, [&] {
+    const Promise promise = promise_unless_lost(extended, own, data, windows);
+    return Record().add(promise.step).add(promise.train).add(promise.held_out);
+  });
+  RecordReader reader(record);
+  Promise promise;
+  promise.step = reader.vector();
+  promise.train = reader.number();
+  promise.held_out = reader.number();
+  return promise;
+}
+
+void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
+                  const Data& data, const Part& part) {
+  const Extended extended =
+      extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
+  const Promise promise =
+      kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data, part.windows);
   hypothesis.step = promise.step;
   hypothesis.promised_train = promise.train / part.train_share;
   hypothesis.promised_held_out = promise.held_out / part.held_out_share;
@@ -98,15 +140,9 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
     if (candidate.law->is_null(again.start.data())) {
       continue;
     }
-    try {
-      screen_start(stage, candidates, again, data, part);
-      if (again.promised() < found[h].promised()) {
-        found[h] = std::move(again);
-      }
-    } catch (const Stopped&) {
-      throw;
-    } catch (const std::runtime_error&) {
-      continue;  // not to be integrated there
+    screen_start(stage, candidates, again, data, part);
+    if (again.promised() < found[h].promised()) {
+      found[h] = std::move(again);
     }
   }
   sort_by_promise(found);
@@ -161,15 +197,9 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
     const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
     progress("screening " + candidate.label(),
              static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
-    try {
-      screen_start(stage, candidates, starts[s], data, part);
-      if (std::isfinite(starts[s].promised())) {
-        found.push_back(std::move(starts[s]));
-      }
-    } catch (const Stopped&) {
-      throw;
-    } catch (const std::runtime_error&) {
-      continue;  // this start cannot be integrated on these trials: it is no explanation of them
+    screen_start(stage, candidates, starts[s], data, part);
+    if (std::isfinite(starts[s].promised())) {
+      found.push_back(std::move(starts[s]));
     }
   }
   sort_by_promise(found);

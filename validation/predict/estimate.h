@@ -60,8 +60,8 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);
 
-/// The model as it is: gauss_newton without parameters, which finds the windows' initial states, from start_x0
-/// or, where that is empty, from the measurements.
+/// The model as it is: gauss_newton without parameters, which finds the windows' initial states, from
+/// start_x0 or, where that is empty, from the measurements.
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0 = {});
 
 /// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.

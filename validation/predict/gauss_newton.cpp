@@ -5,6 +5,7 @@
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
 #include "validation/predict/initial_states.h"
+#include "validation/predict/kept_keys.h"
 #include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
@@ -198,11 +199,10 @@ Point after_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramet
   return at;
 }
 
-}  // namespace
-
-Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
-                      const EstimateOptions& options) {
+/// Directly, and with stops or play also by way of the windows' beginnings.
+Estimate searched(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                  const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                  const EstimateOptions& options) {
   Point from{start, start_x0};
   if (!options.by_parts || !has_corners(pool, parameters, start)) {
     return search(pool, parameters, from, options);
@@ -223,6 +223,19 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
   } catch (const std::runtime_error&) {
     return direct;  // on that way it cannot be integrated
   }
+}
+
+}  // namespace
+
+Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                      const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                      const EstimateOptions& options) {
+  ResultKey key = key_of("gauss_newton", pool.model(), pool.data());
+  add_parameters(parameters, key);
+  key.numbers.add(start).add(start_x0);
+  key.numbers.add(options.iterations).add(options.tolerance).add(options.by_parts ? 1.0 : 0.0);
+  return estimate_from(kept(pool.data(), key,
+                            [&] { return record_of(searched(pool, parameters, start, start_x0, options)); }));
 }
 
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0) {

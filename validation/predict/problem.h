@@ -24,6 +24,8 @@ struct Stopped : std::runtime_error {
 /// Calls work(i) for i in [0, count) on `threads` threads; the first exception is thrown again here.
 void parallel_for(int count, int threads, const std::function<void(int)>& work);
 
+class KeptResults;
+
 /// Trials and their windows, shared by all models that are tried on them.
 struct Data {
   std::vector<Trial> trials;
@@ -31,6 +33,7 @@ struct Data {
   PredictOptions predict;
   int threads = 2;
   const StopFlag* stop = nullptr;
+  std::shared_ptr<KeptResults> kept{};  ///< where long work keeps its results (kept_results.h); may be empty
 
   Data(std::vector<Trial> all, const PredictOptions& options);
   /// The same trials with at most `most` windows of each role, spread evenly.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "validation/predict/kept_keys.h"
 #include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
@@ -73,33 +74,32 @@ std::vector<int> promising(const Data& data, const std::vector<Reduced>& reduced
   return some;
 }
 
-}  // namespace
+/// Of each window the share that can be searched, and where it begins. None for a model without corners.
+struct Shares {
+  Eigen::VectorXd share;
+  std::vector<Eigen::VectorXd> x0;
+};
 
-Followed follow(const model::Model& model, const Data& data) {
+Shares shares_that_can_be_searched(const model::Model& model, const Data& data) {
   constexpr double kLeast = 0.05;
   const std::vector<FreeParameter> as_it_is;
   PredictorPool pool(model, data);
   if (!has_corners(pool, as_it_is, {})) {
-    return {data, {}};
+    return {};
   }
   Grown grown;
   Point at = states_by_parts(pool, as_it_is, {}, &grown);
   const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
-  std::vector<double> shares(data.windows.size(), 1.0);
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.windows.size()));
   for (const int w : promising(data, reduced)) {
     const auto i = static_cast<std::size_t>(w);
-    shares[i] = std::max(kLeast, grown.share[i]);
+    shares[w] = std::max(kLeast, grown.share[i]);
     at.x0[i] = grown.x0[i];
   }
-  return {data.beginnings(shares), std::move(at.x0)};
+  return {std::move(shares), std::move(at.x0)};
 }
 
-double longer_part(double share) {
-  const auto* next = std::upper_bound(kTried.begin(), kTried.end(), share);
-  return next == kTried.end() ? 1.0 : *next;
-}
-
-double reach(const model::Model& model, const Data& data) {
+double reach_of(const model::Model& model, const Data& data) {
   constexpr double kMost = 0.5;
   Point straight;
   if (!is_any_curved(model, data) || can_be_followed(model, data, straight)) {
@@ -114,6 +114,32 @@ double reach(const model::Model& model, const Data& data) {
     reached = share;
   }
   return reached >= kMost && can_be_followed_by_parts(model, data) ? 1.0 : reached;
+}
+
+}  // namespace
+
+Followed follow(const model::Model& model, const Data& data) {
+  const Record record = kept(data, key_of("follow", model, data), [&] {
+    const Shares shares = shares_that_can_be_searched(model, data);
+    return Record().add(shares.share).add(shares.x0);
+  });
+  RecordReader reader(record);
+  const Eigen::VectorXd shares = reader.vector();
+  if (shares.size() == 0) {
+    return {data, {}};
+  }
+  return {data.beginnings(std::vector<double>(shares.begin(), shares.end())), reader.vectors()};
+}
+
+double longer_part(double share) {
+  const auto* next = std::upper_bound(kTried.begin(), kTried.end(), share);
+  return next == kTried.end() ? 1.0 : *next;
+}
+
+double reach(const model::Model& model, const Data& data) {
+  const Record record =
+      kept(data, key_of("reach", model, data), [&] { return Record().add(reach_of(model, data)); });
+  return RecordReader(record).number();
 }
 
 }  // namespace plumbline::validation

@@ -40,7 +40,19 @@ json files_json(const Repetition& repetition, const model::Model& model, const s
   return files.list();
 }
 
+std::string program_hash() { return sha256_of_file("/proc/self/exe"); }
+
 }  // namespace
+
+std::string inputs_hash(const model::Model& model, const std::vector<Trial>& trials) {
+  Repetition inputs;
+  inputs.models = model.lineage;
+  std::string hashes = program_hash();
+  for (const json& file : files_json(inputs, model, trials)) {
+    hashes += '\n' + file["sha256"].get<std::string>();
+  }
+  return sha256_of(hashes);
+}
 
 std::string shell_line(const std::vector<std::string>& words) {
   static const std::string kPlain =
@@ -63,7 +75,7 @@ std::string shell_line(const std::vector<std::string>& words) {
 
 json repeat_json(const Repetition& repetition, const model::Model& model, const std::vector<Trial>& trials) {
   return {{"version", PLUMBLINE_VERSION},
-          {"program", sha256_of_file("/proc/self/exe")},
+          {"program", program_hash()},
           {"compiler", PLUMBLINE_COMPILER},
           {"libraries", json::parse(PLUMBLINE_LIBRARIES)},
           {"command", shell_line(repetition.command)},

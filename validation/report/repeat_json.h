@@ -24,6 +24,9 @@ struct Repetition {
 nlohmann::json repeat_json(const Repetition& repetition, const model::Model& model,
                            const std::vector<Trial>& trials);
 
+/// One hash for the running program and all files from which the model and the trials were read.
+std::string inputs_hash(const model::Model& model, const std::vector<Trial>& trials);
+
 /// Words as a POSIX shell takes them: quoted where they need it.
 std::string shell_line(const std::vector<std::string>& words);
 

@@ -1,0 +1,63 @@
+// A diagnosis that was interrupted, gone on with from its kept results.
+#include <gmock/gmock.h>
+
+#include <memory>
+
+#include "tests/diagnose/bench.h"
+#include "tests/trace/temporary_folder.h"
+#include "validation/predict/kept_results.h"
+#include "validation/report/result_json.h"
+
+namespace plumbline::validation {
+namespace {
+
+using testing::HasSubstr;
+
+/// Laws with and without starts of their own, and a hidden one with a state.
+class Resume : public testing::Test {
+ protected:
+  Resume() : data(bench_twins({"actuator_lag@mLS:time_constant=0.002"}).thinned(6)) {}
+
+  std::string diagnosed(const Progress& progress) const {
+    const effects::Catalogue laws = some_laws({"actuator_lag", "command_delay", "stribeck", "coulomb"});
+    return to_json(diagnose(bench(), laws, data, {}, progress), {}).dump();
+  }
+
+  void open() {
+    data.kept = nullptr;  // one at a time
+    data.kept = std::make_shared<KeptResults>(folder.path("results.txt"), "inputs");
+  }
+
+  static void silent(const std::string& /*what*/, double /*fraction*/) {}
+
+  test::TemporaryFolder folder;
+  Data data;
+};
+
+TEST_F(Resume, EndsAsIfItHadNotBeenInterrupted) {
+  const std::string expected = diagnosed(silent);
+  ASSERT_THAT(expected, HasSubstr("\"verdict\":\"missing\""));
+  open();
+  StopFlag stop;
+  data.stop = &stop;
+  const auto stop_while_refitting = [&](const std::string& what, double /*fraction*/) {
+    stop.raised = stop.raised || what.rfind("refitting", 0) == 0;
+  };
+  EXPECT_THAT(diagnosed(stop_while_refitting), HasSubstr("\"interrupted\":true"));
+  stop.raised = false;
+  open();
+  EXPECT_GT(data.kept->found(), 5U);
+  EXPECT_EQ(diagnosed(silent), expected);
+}
+
+TEST_F(Resume, SearchesNothingTwice) {
+  open();
+  const std::string first = diagnosed(silent);
+  const std::string kept = folder.read("results.txt");
+  open();
+  EXPECT_EQ(diagnosed(silent), first);
+  EXPECT_EQ(folder.read("results.txt"), kept);
+}
+
+}  // namespace
+}  // namespace plumbline::validation
