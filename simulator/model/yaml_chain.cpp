@@ -10,13 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_format(const YamlNode& root, const std::string& expected) {
-  const YamlNode format = root.at("plumbline");
-  if (format.text() != expected) {
-    format.refuse("`plumbline: " + expected + "`");
-  }
-}
-
 std::string relative_base(const std::string& overlay, const std::string& base) {
   const fs::path folder = fs::weakly_canonical(fs::absolute(overlay)).parent_path();
   return fs::weakly_canonical(fs::absolute(base)).lexically_proximate(folder).generic_string();

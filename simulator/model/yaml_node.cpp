@@ -66,6 +66,16 @@ std::optional<double> infinity_of(const std::string& text) {
 
 }  // namespace
 
+void check_format(const YamlNode& root, const std::string& format) {
+  const auto line = root.find("plumbline");
+  if (!line) {
+    root.refuse("no version line", quote("plumbline: " + format) + " as the first line");
+  }
+  if (line->text() != format) {
+    line->refuse("`plumbline: " + format + "`");
+  }
+}
+
 std::string quote(const std::string& text) { return "\"" + text + "\""; }
 
 YamlNode::YamlNode(const YAML::Node& node, std::string file, int line, std::string key)

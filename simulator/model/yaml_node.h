@@ -60,6 +60,9 @@ class YamlNode {
   std::string key_;
 };
 
+/// Refuses a file whose `plumbline:` line is missing or not exactly `format`.
+void check_format(const YamlNode& root, const std::string& format);
+
 /// "a" in quotation marks.
 std::string quote(const std::string& text);
 

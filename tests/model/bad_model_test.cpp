@@ -67,7 +67,7 @@ TEST_F(BadModelTest, Keys) {
       {"robot: test arm", "robott: test arm", "", "robott", "an unknown key", "did you mean robot?"},
       {"robot: test arm\n", "", "plumbline", "", "no \"robot\"", "the key \"robot\""},
       {"model/1", "model/2", "", "plumbline", "\"model/2\"", "`plumbline: model/1`"},
-      {"plumbline: model/1\n", "", "robot", "", "no \"plumbline\"", "the key \"plumbline\""},
+      {"plumbline: model/1\n", "", "robot", "", "no version line", "\"plumbline: model/1\" as the first line"},
       {"unit: N m, assumed", "unitt: N m, assumed", "", "motors.mRail.torque_limit.unitt", "an unknown key",
        "did you mean unit?"},
       {"    torque_limit", "    torque_limits", "torque_limits", "motors.mRail.torque_limits",

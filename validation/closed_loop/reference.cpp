@@ -54,7 +54,7 @@ std::string to_string(ReferenceValue::Quantity quantity) {
 
 std::vector<ReferenceValue> read_reference(const std::string& path) {
   const model::YamlNode root = model::YamlNode::load(path);
-  check_version(root, "reference/1");
+  check_format(root, "reference/1");
   root.allow_keys({"plumbline", "values"});
   std::vector<ReferenceValue> values;
   for (const model::YamlNode& node : root.at("values").items()) {

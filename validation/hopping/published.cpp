@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 #include "simulator/model/quantity.h"
+#include "simulator/model/yaml_chain.h"
 #include "simulator/model/yaml_node.h"
 #include "simulator/trace/error.h"
 
@@ -88,13 +88,9 @@ std::string to_string(Relation relation) {
 
 PublishedRobot read_published(const std::string& path) {
   const YamlNode root = YamlNode::load(path);
-  if (root.at("plumbline").text() != "published/1") {
-    root.at("plumbline").refuse("`plumbline: published/1`");
-  }
+  check_format(root, "published/1");
   root.allow_keys({"plumbline", "title", "model", "controller", "tuned_rigid", "quantities"});
-  const auto beside = [&path](const YamlNode& node) {
-    return (std::filesystem::path(path).parent_path() / node.text()).string();
-  };
+  const auto beside = [](const YamlNode& node) { return model::beside(node.file(), node.text()); };
   PublishedRobot robot;
   robot.model = beside(root.at("model"));
   robot.controller = beside(root.at("controller"));

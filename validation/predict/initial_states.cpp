@@ -182,14 +182,17 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
   return reduced;
 }
 
+bool is_above_floor(const Data& data, int window, double sse, double fits) {
+  const Window& one = data.windows[static_cast<std::size_t>(window)];
+  const Trial& trial = data.trials[static_cast<std::size_t>(one.trial)];
+  const auto residuals = static_cast<double>(one.count) * static_cast<double>(trial.measured.size());
+  return sse > fits * fits * residuals;
+}
+
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits) {
   std::vector<int> some;
   for (const int w : data.all_windows()) {
-    const auto i = static_cast<std::size_t>(w);
-    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[i].trial)];
-    const auto residuals =
-        static_cast<double>(data.windows[i].count) * static_cast<double>(trial.measured.size());
-    if (reduced[i].raw_sse > fits * fits * residuals) {
+    if (is_above_floor(data, w, reduced[static_cast<std::size_t>(w)].raw_sse, fits)) {
       some.push_back(w);
     }
   }

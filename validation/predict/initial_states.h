@@ -70,7 +70,10 @@ class InitialStates {
 std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                 const Settling& settling, Point& at);
 
-/// The windows whose root mean square residual is more than `fits` floors.
+/// Does a window's squared error mean a root mean square residual of more than `fits` floors?
+bool is_above_floor(const Data& data, int window, double sse, double fits = kFits);
+
+/// The windows that are above the floor where they are.
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits = kFits);
 
 /// The windows that are not linear in where they begin.

@@ -59,19 +59,8 @@ bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
 }
 
 /// Does the next step promise the floor, above which it is?
-std::vector<int> promising(const Data& data, const std::vector<Reduced>& reduced) {
-  std::vector<Reduced> promised = reduced;
-  for (Reduced& one : promised) {
-    one.raw_sse = one.sse;
-  }
-  const std::vector<int> stays_above = above_floor(data, promised);
-  std::vector<int> some;
-  for (const int w : above_floor(data, reduced)) {
-    if (!std::binary_search(stays_above.begin(), stays_above.end(), w)) {
-      some.push_back(w);
-    }
-  }
-  return some;
+bool is_promising(const Data& data, int window, const Reduced& one) {
+  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse);
 }
 
 /// Of each window the share that can be searched, and where it begins. None for a model without corners.
@@ -91,10 +80,12 @@ Shares shares_that_can_be_searched(const model::Model& model, const Data& data) 
   Point at = states_by_parts(pool, as_it_is, {}, &grown);
   const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.windows.size()));
-  for (const int w : promising(data, reduced)) {
+  for (const int w : data.all_windows()) {
     const auto i = static_cast<std::size_t>(w);
-    shares[w] = std::max(kLeast, grown.share[i]);
-    at.x0[i] = grown.x0[i];
+    if (is_promising(data, w, reduced[i])) {
+      shares[w] = std::max(kLeast, grown.share[i]);
+      at.x0[i] = grown.x0[i];
+    }
   }
   return {std::move(shares), std::move(at.x0)};
 }

@@ -126,7 +126,7 @@ Recipe read_recipe(const std::string& path, const effects::Catalogue& catalogue)
   namespace fs = std::filesystem;
   const std::string file = fs::is_directory(path) ? (fs::path(path) / "recipe.yaml").string() : path;
   const YamlNode root = YamlNode::load(file);
-  check_version(root, "recipe/1");
+  check_format(root, "recipe/1");
   root.allow_keys({"plumbline", "title", "source", "unknowns", "models", "steps"});
   Recipe recipe;
   recipe.file = file;

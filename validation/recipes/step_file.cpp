@@ -6,6 +6,7 @@
 
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
+#include "simulator/model/yaml_chain.h"
 #include "validation/trial/physical_number.h"
 #include "validation/trial/trial_file.h"
 
@@ -278,11 +279,11 @@ std::string known_name(const YamlNode& node, const std::vector<std::string>& nam
 }
 
 std::string existing_file(const YamlNode& node) {
-  const fs::path path = fs::path(node.file()).parent_path() / node.text();
+  const std::string path = model::beside(node.file(), node.text());
   if (!fs::exists(path)) {
     node.refuse(model::quote(node.text()) + ", which is not there", "a file");
   }
-  return path.lexically_normal().string();
+  return path;
 }
 
 Step read_step(const YamlNode& node, const Recipe& recipe, std::set<std::string>& given) {

@@ -153,7 +153,7 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
 
 std::string model_of_trial(const std::string& path) {
   const model::YamlNode root = model::YamlNode::load(trial_yaml(path));
-  check_version(root, "trial/1");
+  check_format(root, "trial/1");
   return read_model_path(root);
 }
 

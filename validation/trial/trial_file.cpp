@@ -6,6 +6,7 @@
 
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
+#include "simulator/model/yaml_chain.h"
 #include "validation/trial/physical_number.h"
 
 namespace plumbline::validation {
@@ -270,16 +271,6 @@ void check_columns_differ(const TrialFile& file) {
 
 }  // namespace
 
-void check_version(const YamlNode& root, const std::string& version) {
-  const auto line = root.find("plumbline");
-  if (!line) {
-    root.refuse("no version line", quote("plumbline: " + version) + " as the first line");
-  }
-  if (line->text() != version) {
-    line->refuse(version);
-  }
-}
-
 Role read_role(const YamlNode& node) {
   const std::string text = node.text();
   if (text == "train") {
@@ -299,8 +290,7 @@ std::string trial_yaml(const std::string& path) {
 }
 
 std::string read_model_path(const YamlNode& root) {
-  const fs::path folder = fs::path(root.file()).parent_path();
-  return (folder / root.at("model").text()).lexically_normal().string();
+  return model::beside(root.file(), root.at("model").text());
 }
 
 std::string placed_unit(const YamlNode& node, const std::string& name, const Model& model) {
@@ -358,7 +348,7 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   file.path = trial_yaml(path);
   file.folder = fs::path(file.path).parent_path().string();
   const YamlNode root = YamlNode::load(file.path);
-  check_version(root, "trial/1");
+  check_format(root, "trial/1");
   root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "columns", "section",
                    "time", "commands", "measured", "locked", "start", "controllers", "events"});
   file.title = root.at("title").text();

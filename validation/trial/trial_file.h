@@ -64,9 +64,6 @@ struct TrialFile {
   std::vector<double> events;
 };
 
-/// Refuses a file whose `plumbline:` line is missing or not exactly `version`.
-void check_version(const model::YamlNode& root, const std::string& version);
-
 /// train or held-out.
 Role read_role(const model::YamlNode& node);
 

@@ -115,7 +115,7 @@ void join(const Model& model, Experiment& experiment) {
 }
 
 Experiment experiment_from(const YamlNode& root, const Model& model) {
-  check_version(root, "experiment/1");
+  check_format(root, "experiment/1");
   root.allow_keys({"plumbline", "title", "role", "duration", "sample_period", "start", "locked", "commands",
                    "controllers"});
   const Sampling sampling = read_sampling(root);
