@@ -14,6 +14,8 @@
 #include "tests/model/test_laws.h"
 #include "tests/trial/texts.h"
 #include "validation/hopping/hopping_file.h"
+#include "validation/hopping/published.h"
+#include "validation/predict/kept_results.h"
 #include "validation/trial/trial.h"
 #include "validation/twin/experiment.h"
 
@@ -21,6 +23,8 @@ namespace plumbline::test {
 namespace {
 
 constexpr double kHang = 5.0;  // s of processor time
+
+constexpr const char* kResults = "plumbline: results/1 inputs\nab12 2 1.8p+0 -inf\ncd34 0\nef56 1 nan\n";
 
 std::string put(const std::string& path, const std::string& text) {
   std::filesystem::remove(path);  // some file systems flush a file that is truncated and written again
@@ -198,6 +202,24 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
          const std::string path = put(folder + "/controller.yaml", text);
          return verdict([&] {
            validation::read_hopping(path);
+           return std::string();
+         });
+       }},
+      {"published",
+       {file_text(PLUMBLINE_ROOT "/robots/mabel/published.yaml")},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/published.yaml", text);
+         return verdict([&] {
+           const validation::PublishedRobot robot_as_published = validation::read_published(path);
+           return robot_as_published.quantities.empty() ? std::string("no quantities") : std::string();
+         });
+       }},
+      {"results",
+       {kResults},
+       [=](const std::string& text) {
+         const std::string path = put(folder + "/results.txt", text);
+         return verdict([&] {
+           validation::KeptResults(path, "inputs");
            return std::string();
          });
        }},

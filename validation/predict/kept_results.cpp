@@ -1,5 +1,6 @@
 #include "validation/predict/kept_results.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -30,6 +31,15 @@ double number_of(const std::string& text) {
     throw std::invalid_argument(text);
   }
   return number;
+}
+
+/// The beginning of a line for a message, which is one line itself.
+std::string shown(const std::string& line) {
+  constexpr std::size_t kShown = 40;
+  std::string text = line.substr(0, kShown);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
+  return "`" + text + "`";
 }
 
 /// "hash count number ...".
@@ -132,7 +142,7 @@ void KeptResults::read(const std::string& inputs) {
     const std::string content = text.substr(at, end - at);
     if (line == 1) {
       if (content.rfind(kKind, 0) != 0) {
-        throw InputError({file_, 1, ""}, "`" + content.substr(0, 40) + "`", "`plumbline: results/1 ...`");
+        throw InputError({file_, 1, ""}, shown(content), "`plumbline: results/1 ...`");
       }
       if (content != kKind + inputs) {
         throw InputError({file_, 1, ""}, "results of other files, options or another version of the program",
@@ -142,14 +152,13 @@ void KeptResults::read(const std::string& inputs) {
       try {
         records_.insert(parsed(content));
       } catch (const std::invalid_argument&) {
-        throw InputError({file_, line, ""}, "`" + content.substr(0, 40) + "`",
-                         "a result: hash, count, numbers");
+        throw InputError({file_, line, ""}, shown(content), "a result: hash, count, numbers");
       }
     }
     at = end + 1;
   }
   if (line == 1 && (kKind + inputs).rfind(text, 0) != 0) {
-    throw InputError({file_, 1, ""}, "`" + text.substr(0, 40) + "`", "`plumbline: results/1 ...`");
+    throw InputError({file_, 1, ""}, shown(text), "`plumbline: results/1 ...`");
   }
   std::filesystem::resize_file(file_, at);
 }
