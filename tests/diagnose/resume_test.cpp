@@ -5,7 +5,7 @@
 
 #include "tests/diagnose/bench.h"
 #include "tests/trace/temporary_folder.h"
-#include "validation/predict/kept_results.h"
+#include "validation/predict/kept_keys.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::validation {
@@ -57,6 +57,48 @@ TEST_F(Resume, SearchesNothingTwice) {
   open();
   EXPECT_EQ(diagnosed(silent), first);
   EXPECT_EQ(folder.read("results.txt"), kept);
+}
+
+/// A result is found again for nothing but the same work.
+TEST_F(Resume, EveryChangeOfTheWorkIsAnotherKey) {
+  const model::Model model = bench();
+  const std::string key = key_of("work", model, data).hash();
+  EXPECT_EQ(key_of("work", bench(), data).hash(), key);
+  EXPECT_NE(key_of("other", model, data).hash(), key);
+
+  model::Model other = model;
+  other.effects.front().values.front().value *= 1.0 + 1e-15;
+  EXPECT_NE(key_of("work", other, data).hash(), key);
+  other = model;
+  other.effects.pop_back();
+  EXPECT_NE(key_of("work", other, data).hash(), key);
+
+  Data changed = data;
+  changed.predict.most_steps = 10.0;
+  EXPECT_NE(key_of("work", model, changed).hash(), key);
+  EXPECT_NE(key_of("work", model, data.thinned(5)).hash(), key);
+  EXPECT_NE(key_of("work", model, data.beginnings(0.5)).hash(), key);
+}
+
+TEST_F(Resume, EveryChangeOfAFreeParameterIsAnotherKey) {
+  const auto hash = [](const FreeParameter& one) {
+    ResultKey key{"work"};
+    add_parameters({one}, key);
+    return key.hash();
+  };
+  const FreeParameter given;
+  std::vector<FreeParameter> others(8, given);
+  others[0].id.effect = 1;
+  others[1].id.parameter = 1;
+  others[2].scale = effects::Scale::logarithm;
+  others[3].lower = -1.0;
+  others[4].upper = 1.0;
+  others[5].mean = 1.0;
+  others[6].deviation = 1.0;
+  others[7].also = {{2, 0}};
+  for (const FreeParameter& other : others) {
+    EXPECT_NE(hash(other), hash(given));
+  }
 }
 
 }  // namespace
