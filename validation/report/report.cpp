@@ -109,8 +109,7 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
              static_cast<double>(i) / static_cast<double>(model.lineage.size()));
     const model::Model one = model::read_model(file, catalogue);
     PredictorPool pool(one, data);
-    ladder.push_back(
-        {rung_name(one, known), {one, {}, estimate_states(pool)}});
+    ladder.push_back({rung_name(one, known), {one, {}, estimate_states(pool)}});
     known = effect_names(one);
   }
   return ladder;
