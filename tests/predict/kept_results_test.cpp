@@ -76,6 +76,13 @@ TEST_F(Kept, ALineThatWasCutOffIsComputedAgain) {
   EXPECT_THAT(again.get({"other"}, must_not_be_computed).numbers(), ElementsAre(3.0));
 }
 
+TEST_F(Kept, AFileWithoutResultsIsGoneOnWith) {
+  KeptResults(file, "inputs");
+  const std::string begun = folder.read("results.txt");
+  EXPECT_EQ(KeptResults(file, "inputs").found(), 0U);
+  EXPECT_EQ(folder.read("results.txt"), begun);
+}
+
 TEST_F(Kept, AnExceptionKeepsNothing) {
   KeptResults results(file, "inputs");
   EXPECT_THROW(results.get({"one"}, []() -> Record { throw std::runtime_error("lost"); }),

@@ -270,6 +270,9 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     write_json(validation::to_json(diagnosis, left), options->inputs.json);
     print(diagnosis);
     print_unexplained(left);
+    if (loaded.data->kept && !loaded.data->kept->is_written()) {
+      fmt::print(stderr, "{}: results could not be written any more; those in it stay\n", options->resume);
+    }
     if (diagnosis.interrupted && !options->resume.empty()) {
       fmt::print("\nThe same command goes on from the results in {}.\n", options->resume);
     }

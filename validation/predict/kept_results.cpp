@@ -125,7 +125,7 @@ KeptResults::KeptResults(const std::string& file, const std::string& inputs) : f
     read(inputs);
   }
   out_.open(file, std::ios::app | std::ios::binary);
-  if (records_.empty() && out_ && out_.tellp() == 0) {
+  if (out_ && std::filesystem::file_size(file) == 0) {
     out_ << kKind << inputs << '\n' << std::flush;
   }
   if (!out_) {
@@ -145,7 +145,7 @@ void KeptResults::read(const std::string& inputs) {
         throw InputError({file_, 1, ""}, shown(content), "`plumbline: results/1 ...`");
       }
       if (content != kKind + inputs) {
-        throw InputError({file_, 1, ""}, "results of other files, options or another version of the program",
+        throw InputError({file_, 1, ""}, "results of other files or of another version of the program",
                          "those of this work; name another file to begin anew");
       }
     } else {
@@ -181,9 +181,6 @@ void KeptResults::keep(const std::string& hash, const Record& record) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (records_.emplace(hash, record).second) {
     out_ << line_of(hash, record) << std::flush;
-  }
-  if (!out_) {
-    throw std::runtime_error(file_ + ": a result could not be written; what is in it stays");
   }
 }
 

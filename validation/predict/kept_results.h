@@ -66,6 +66,10 @@ class KeptResults {
   /// Results that were in the file when it was opened.
   std::size_t found() const { return found_; }
 
+  /// False once a result could not be written: work goes on without keeping, since a full disk says nothing
+  /// of a candidate.
+  bool is_written() const { return out_.good(); }
+
  private:
   void read(const std::string& inputs);
   void keep(const std::string& hash, const Record& record);
