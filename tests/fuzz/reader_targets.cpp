@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "simulator/model/robot_reader.h"
 #include "simulator/trace/error.h"
@@ -148,93 +149,70 @@ std::string check_unit(const std::string& text) {
 std::vector<ReaderTarget> reader_targets(const std::string& folder) {
   put(folder + "/arm.sdf", kSkeleton);
   put(folder + "/model.yaml", kModel);
-  const model::Skeleton skeleton = model::read_skeleton(folder + "/arm.sdf");
-  const auto given = [skeleton](const std::string&) { return skeleton; };
+  model::Skeleton skeleton = model::read_skeleton(folder + "/arm.sdf");
+  const auto given = [skeleton = std::move(skeleton)](const std::string&) { return skeleton; };
   const model::Model robot = validation::small_robot();
   const auto catalogue = test_catalogue();
-  const auto read_model = [=](const std::string& path) {
-    return verdict([&] { return incredible(model::read_model(path, catalogue, given)); });
+  // `read` gets the path of a file with the text, and says what is wrong with what it has read.
+  const auto from_file = [folder](const std::string& name, auto read) {
+    return [=](const std::string& text) {
+      const std::string path = put(folder + "/" + name, text);
+      return verdict([&] { return read(path); });
+    };
   };
-  const auto read_skeleton = [](const std::string& path) {
-    return verdict([&] { return incredible(model::read_skeleton(path)); });
+  const auto read_model = from_file("input.yaml", [=](const std::string& path) {
+    return incredible(model::read_model(path, catalogue, given));
+  });
+  const auto read_skeleton = [](const std::string& path) { return incredible(model::read_skeleton(path)); };
+  const auto read_table = [](const std::string& path) {
+    const Table table = read_mat(path);
+    for (const Column& column : table.columns) {
+      require_finite(table, column.name);  // as a trial does with the columns that it uses
+    }
+    return incredible(table);
+  };
+  const auto read_trial = [=](const std::string& /*path*/) {
+    put(folder + "/data.csv", validation::good_csv());
+    return incredible(validation::read_trial(folder, robot));
+  };
+  const auto read_experiment = [=](const std::string& path) {
+    return incredible(validation::read_experiment(path, robot));
+  };
+  const auto read_controller = [](const std::string& path) {
+    validation::read_hopping(path);
+    return std::string();
+  };
+  const auto read_published = [](const std::string& path) {
+    return std::string(validation::read_published(path).quantities.empty() ? "no quantities" : "");
+  };
+  const auto read_results = [](const std::string& path) {
+    const validation::KeptResults results(path, "inputs");
+    return std::string();
   };
   return {
-      {"model",
-       {kModel, kPulleyModel},
-       [=](const std::string& text) { return read_model(put(folder + "/input.yaml", text)); }},
-      {"overlay",
-       {kOverlay},
-       [=](const std::string& text) { return read_model(put(folder + "/input.yaml", text)); }},
+      {"model", {kModel, kPulleyModel}, read_model},
+      {"overlay", {kOverlay}, read_model},
       {"csv",
        {kCsv},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/input.csv", text);
-         return verdict([&] { return incredible(read_csv(path)); });
-       }},
-      {"mat",
-       {good_mat(folder)},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/input.mat", text);
-         return verdict([&] {
-           const Table table = read_mat(path);
-           for (const Column& column : table.columns) {
-             require_finite(table, column.name);  // as a trial does with the columns that it uses
-           }
-           return incredible(table);
-         });
-       }},
-      {"trial",
-       {validation::good_trial()},
-       [=](const std::string& text) {
-         put(folder + "/data.csv", validation::good_csv());
-         put(folder + "/trial.yaml", text);
-         return verdict([&] { return incredible(validation::read_trial(folder, robot)); });
-       }},
-      {"experiment",
-       {validation::good_experiment()},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/experiment.yaml", text);
-         return verdict([&] { return incredible(validation::read_experiment(path, robot)); });
-       }},
+       from_file("input.csv", [](const std::string& path) { return incredible(read_csv(path)); })},
+      {"mat", {good_mat(folder)}, from_file("input.mat", read_table)},
+      {"trial", {validation::good_trial()}, from_file("trial.yaml", read_trial)},
+      {"experiment", {validation::good_experiment()}, from_file("experiment.yaml", read_experiment)},
       {"controller",
        {file_text(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml")},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/controller.yaml", text);
-         return verdict([&] {
-           validation::read_hopping(path);
-           return std::string();
-         });
-       }},
+       from_file("controller.yaml", read_controller)},
       {"published",
        {file_text(PLUMBLINE_ROOT "/robots/mabel/published.yaml")},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/published.yaml", text);
-         return verdict([&] {
-           const validation::PublishedRobot robot_as_published = validation::read_published(path);
-           return robot_as_published.quantities.empty() ? std::string("no quantities") : std::string();
-         });
-       }},
-      {"results",
-       {kResults},
-       [=](const std::string& text) {
-         const std::string path = put(folder + "/results.txt", text);
-         return verdict([&] {
-           validation::KeptResults(path, "inputs");
-           return std::string();
-         });
-       }},
+       from_file("published.yaml", read_published)},
+      {"results", {kResults}, from_file("results.txt", read_results)},
       {"unit",
        {"N m s/rad", "kg m^2", "deg", "1e-3 mN.m/A^2", "m/s^2"},
        [=](const std::string& text) {
          put(folder + "/input.unit", text);
          return verdict([&] { return check_unit(text); });
        }},
-      {"sdf",
-       {kSkeleton},
-       [=](const std::string& text) { return read_skeleton(put(folder + "/input.sdf", text)); }},
-      {"urdf",
-       {kUrdf},
-       [=](const std::string& text) { return read_skeleton(put(folder + "/input.urdf", text)); }},
+      {"sdf", {kSkeleton}, from_file("input.sdf", read_skeleton)},
+      {"urdf", {kUrdf}, from_file("input.urdf", read_skeleton)},
   };
 }
 

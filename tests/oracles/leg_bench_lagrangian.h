@@ -37,26 +37,26 @@ struct LegBenchConstants {
 using Pair = Eigen::Vector2d;
 
 /// Motor positions (mLA, mLS) = motor_map * (thigh, shin); also for rates and accelerations.
-Eigen::Matrix2d motor_map(const LegBenchConstants& constants);
+Eigen::Matrix2d motor_map(const LegBenchConstants& k);
 
 /// M in M acceleration + bias = motor_map^T (motor torques); kg m^2.
-Eigen::Matrix2d leg_bench_mass_matrix(const LegBenchConstants& constants, const Pair& angles);
+Eigen::Matrix2d leg_bench_mass_matrix(const LegBenchConstants& k, const Pair& angles);
 
 /// Centrifugal and gravity terms; N m.
-Pair leg_bench_bias(const LegBenchConstants& constants, const Pair& angles, const Pair& rates);
+Pair leg_bench_bias(const LegBenchConstants& k, const Pair& angles, const Pair& rates);
 
 /// (thigh, shin) accelerations, rad/s^2. `motor_torques` (mLA, mLS) are all torques on the rotors except
 /// viscous friction (so with bias), N m; `viscous` (mLA, mLS) is the friction at the motors, N m s/rad.
-Pair leg_bench_accelerations(const LegBenchConstants& constants, const Pair& angles, const Pair& rates,
+Pair leg_bench_accelerations(const LegBenchConstants& k, const Pair& angles, const Pair& rates,
                              const Pair& motor_torques, const Pair& viscous);
 
 /// Acceleration of one coordinate with the other motor locked: `free_motor` is 0 (mLA moves, mLS is locked)
 /// or 1. Returns the (thigh, shin) accelerations; `rates` must obey the lock.
-Pair leg_bench_accelerations_locked(const LegBenchConstants& constants, int free_motor, const Pair& angles,
+Pair leg_bench_accelerations_locked(const LegBenchConstants& k, int free_motor, const Pair& angles,
                                     const Pair& rates, const Pair& motor_torques, const Pair& viscous);
 
 /// Kinetic energy and gravity's potential (0 with all links at the height of their pivots and the hip), J.
-double leg_bench_energy(const LegBenchConstants& constants, const Pair& angles, const Pair& rates);
+double leg_bench_energy(const LegBenchConstants& k, const Pair& angles, const Pair& rates);
 
 /// Left leg of Park et al., Identification of a Bipedal Robot with a Compliant Drivetrain: Table VI (links),
 /// Tables IV and V (rotors and pulleys), equations 6 and 7 (ratios). Small links hang at zero (assumed).

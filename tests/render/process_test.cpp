@@ -196,7 +196,9 @@ TEST(Video, WithoutFfmpegThereAreNumberedPictures) {
 
 TEST(Video, LeavesNothingBehindWhenItIsNotFinished) {
   const test::TemporaryFolder folder;
-  for (const std::string& path : {std::string("/nowhere"), std::string(std::getenv("PATH"))}) {
+  const char* usual = std::getenv("PATH");
+  ASSERT_NE(usual, nullptr);
+  for (const std::string& path : {std::string("/nowhere"), std::string(usual)}) {
     const Setting with("PATH", path.c_str());
     Video video(folder.path("a.mp4"), 64, 64, 30.0);
     video.add(gray(1));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <thread>
@@ -58,9 +59,9 @@ TEST(UnitsTest, AgreementIsOneDimensionWithAnglesAsNumbers) {
 }
 
 TEST(UnitsTest, MayBeAskedFromSeveralThreads) {
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t) {
-    threads.emplace_back([] {
+  std::array<std::thread, 4> threads;
+  for (std::thread& thread : threads) {
+    thread = std::thread([] {
       for (int i = 0; i < 200; ++i) {
         ASSERT_DOUBLE_EQ(to_si_factor("kN m/A"), 1000.0);
         ASSERT_FALSE(unit_is_known("not a unit"));

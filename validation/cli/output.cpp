@@ -27,6 +27,7 @@ void print_table(const std::vector<std::string>& head, const std::vector<std::ve
   };
   line(head);
   std::vector<std::string> rule;
+  rule.reserve(width.size());
   for (const std::size_t w : width) {
     rule.emplace_back(w, '-');
   }

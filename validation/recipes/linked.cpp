@@ -75,6 +75,7 @@ std::vector<LinkedParameter> linked_parameters(const LinkedModel& linked, const 
 
 std::vector<FreeParameter> parameters_of(const std::vector<LinkedParameter>& linked) {
   std::vector<FreeParameter> parameters;
+  parameters.reserve(linked.size());
   for (const LinkedParameter& one : linked) {
     parameters.push_back(one.parameter);
   }

@@ -105,6 +105,7 @@ LinkedModel read_linked_model(const std::string& name, const YamlNode& node,
   linked.model = model::read_model(linked.file, catalogue);
   const std::vector<FreeParameter> parameters = free_parameters(linked.model);
   std::vector<std::string> labels;
+  labels.reserve(parameters.size());
   for (const FreeParameter& parameter : parameters) {
     labels.push_back(parameter.label);
   }

@@ -279,7 +279,7 @@ std::string known_name(const YamlNode& node, const std::vector<std::string>& nam
 }
 
 std::string existing_file(const YamlNode& node) {
-  const std::string path = model::beside(node.file(), node.text());
+  std::string path = model::beside(node.file(), node.text());
   if (!fs::exists(path)) {
     node.refuse(model::quote(node.text()) + ", which is not there", "a file");
   }

@@ -15,7 +15,6 @@ namespace {
 constexpr double kWeak = 0.5;      // as a share of the values: worse is not known
 constexpr double kStrong = 0.95;   // correlation worth a line
 constexpr double kSettled = 1e-8;  // relative change of the cost
-constexpr int kStateIterations = 8;
 
 Finding finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
   Finding finding;
