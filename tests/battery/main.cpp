@@ -134,6 +134,7 @@ int main(int argc, char** argv) {
       "--as-stated", inputs.run.as_stated,
       "the robot's own numbers exactly those of the model, not scattered within what is stated of them");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
+  app.add_flag("--timing", inputs.run.timing, "what each diagnosis does, and when, to the standard error");
   app.add_flag("--list", inputs.list, "only the names of the cases");
   try {
     app.parse(argc, argv);

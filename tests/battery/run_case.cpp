@@ -1,5 +1,7 @@
 #include "tests/battery/run_case.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +15,12 @@
 
 namespace plumbline::battery {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 bool names(const model::EffectUse& truth, const std::string& effect, const std::string& at) {
   return truth.law->declaration().name == effect && truth.at == at;
@@ -98,6 +106,16 @@ effects::Catalogue catalogue_of(const Case& one) {
   return catalogue;
 }
 
+/// Each line once, with the seconds since now.
+validation::Progress timed_lines() {
+  return [start = Clock::now(), last = std::string()](const std::string& what, double /*fraction*/) mutable {
+    if (what != last) {
+      fmt::print(stderr, "{:8.1f} {}\n", seconds_since(start), what);
+      last = what;
+    }
+  };
+}
+
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
   const model::Model bare =
@@ -108,8 +126,9 @@ void run(const RunOptions& options, Result& result) {
   const validation::Data data(trials_of(one, bare, truth, draw, options), {});
   result.bare = validation::compare(bare, data).scores.held_out;
   if (!options.bare_only) {
-    const auto silent = [](const std::string& /*what*/, double /*fraction*/) {};
-    judge(validation::diagnose(bare, catalogue_of(one), data, {}, silent), truth, result);
+    const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};
+    const validation::Progress progress = options.timing ? timed_lines() : silent;
+    judge(validation::diagnose(bare, catalogue_of(one), data, {}, progress), truth, result);
   }
 }
 
@@ -123,13 +142,13 @@ bool Recovered::is_inside() const {
 Result run_case(const Case& one, const RunOptions& options) {
   Result result;
   result.one = one;
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   try {
     run(options, result);
   } catch (const std::exception& error) {
     result.error = error.what();
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = seconds_since(start);
   return result;
 }
 

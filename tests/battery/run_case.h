@@ -47,7 +47,8 @@ struct RunOptions {
   std::uint64_t seed = 1;
   bool bare_only = false;  ///< held-out trials only and no diagnosis
   bool as_stated =
-      false;  ///< the robot's own numbers are exactly those of the model, not scattered about them
+      false;            ///< the robot's own numbers are exactly those of the model, not scattered about them
+  bool timing = false;  ///< what the diagnosis does, and when, to the standard error
 };
 
 /// Never throws for a case that fails: the reason is in Result::error.
