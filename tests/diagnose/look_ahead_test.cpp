@@ -4,12 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/tangents.h"
 
 namespace plumbline::validation {
 namespace {
 
+using testing::Contains;
+using testing::Not;
+using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 void silent(const std::string& /*what*/, double /*fraction*/) {}
@@ -33,6 +39,21 @@ TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
     EXPECT_GE(pairs[i].refit.square(), pairs[i - 1].refit.square());
   }
   EXPECT_TRUE(halves_of(tried, pairs, data, options, silent).empty());  // neither is enough
+}
+
+TEST(LookAhead, FollowsOnlyWhatExplainsSomethingAlone) {
+  const Data data = bench_twins({"quadratic@mLS:drag=1.7e-5", "command_delay@mLA:delay=0.0014"}).thinned(8);
+  const effects::Catalogue catalogue = some_laws({"quadratic", "torque_bias"});
+  const Tried tried = try_candidates(as_given(bench(), data), catalogue, {}, data, {}, silent);
+  ASSERT_GE(tried.refits.size(), 3U);
+  std::set<std::string> followed;
+  look_ahead(tried, catalogue, data, {}, [&](const std::string& what, double /*fraction*/) {
+    if (what.rfind("with ", 0) == 0) {
+      followed.insert(what.substr(5, what.find(':') - 5));
+    }
+  });
+  EXPECT_THAT(followed, Contains("quadratic@mLS"));
+  EXPECT_THAT(followed, Not(Contains(StartsWith("torque_bias"))));
 }
 
 TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
@@ -72,14 +93,19 @@ TEST(Tangents, PromiseMostForThePairThatIsHidden) {
       starts.push_back(hypothesis);
     }
   }
-  const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(3);
-  ASSERT_EQ(pairs.size(), 3U);
+  const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(8);
+  ASSERT_EQ(pairs.size(), 8U);
   const auto label = [&](const Hypothesis& h) {
     return candidates[static_cast<std::size_t>(h.candidate)].label();
   };
   EXPECT_THAT((std::vector<std::string>{label(pairs[0].first), label(pairs[0].second)}),
               UnorderedElementsAre("hardening@leg_angle", "coulomb@mLS"));
   EXPECT_LT(pairs[0].promised(), 0.5 * pairs[2].promised());
+  std::set<std::set<std::string>> different;
+  for (const PairHypothesis& pair : pairs) {
+    different.insert({label(pair.first), label(pair.second)});
+  }
+  EXPECT_EQ(different.size(), pairs.size());  // whatever the starts
 }
 
 }  // namespace

@@ -36,6 +36,13 @@ TEST(Play, IsFittedFromFarAway) {
   EXPECT_NEAR(found.estimate.theta[2], 0.111, 0.005);
 }
 
+// What is left of a ripple moves a bristle friction a little further at every step, to no end.
+TEST(GaussNewton, EndsWhereItOnlyCreeps) {
+  const Data data = bench_twins({"cogging@mLS:sine=0.02"}).thinned(4);
+  const Fitted found = fitted("lugre@mLS:level=0.002,stiffness=1,viscous=1e-4", "lugre@*", data);
+  EXPECT_TRUE(found.estimate.converged);
+}
+
 // Without a rise of the friction at low speed nothing tells over which speed it fades.
 TEST(Deviations, OfAValueThatNothingTellsAreWide) {
   const Data data = bench_twins({"coulomb@mLA:level=0.005,smoothing_speed=0.03"}).thinned(6);

@@ -118,7 +118,7 @@ TEST_F(RecordedHops, RingingCablesAreFollowedByGrowingTheWindows) {
   const std::vector<FreeParameter> none;
   Point straight;
   EXPECT_FALSE(above_floor(data, settle_all(pool, none, kRoughly, straight)).empty());
-  Point grown = states_by_parts(pool, none, {});
+  Point grown = grown_states(pool, none, {});
   EXPECT_TRUE(above_floor(data, settle_all(pool, none, kRoughly, grown)).empty());
 }
 

@@ -77,10 +77,17 @@ TEST_F(Kept, ALineThatWasCutOffIsComputedAgain) {
 }
 
 TEST_F(Kept, AFileWithoutResultsIsGoneOnWith) {
-  KeptResults(file, "inputs");
+  EXPECT_EQ(KeptResults(file, "inputs").found(), 0U);
   const std::string begun = folder.read("results.txt");
   EXPECT_EQ(KeptResults(file, "inputs").found(), 0U);
   EXPECT_EQ(folder.read("results.txt"), begun);
+}
+
+TEST_F(Kept, InMemoryTheSameIsNotComputedTwice) {
+  KeptResults results;
+  EXPECT_THAT(results.get({"one"}, [] { return Record({1.0}); }).numbers(), ElementsAre(1.0));
+  EXPECT_THAT(results.get({"one"}, must_not_be_computed).numbers(), ElementsAre(1.0));
+  EXPECT_TRUE(results.is_written());
 }
 
 TEST_F(Kept, AnExceptionKeepsNothing) {

@@ -53,8 +53,7 @@ Scores drawn_scores(const Data& data, const std::vector<Eigen::VectorXd>& square
 
 double drawn_square(const Data& data, const std::vector<Eigen::VectorXd>& square,
                     const std::vector<int>& times) {
-  const Scores scores = drawn_scores(data, square, times);
-  return scores.train * scores.train + scores.held_out * scores.held_out;
+  return drawn_scores(data, square, times).square();
 }
 
 /// How often each window is drawn: with replacement within each role's windows.
@@ -182,7 +181,11 @@ bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) 
 
 /// A full refit, if it can be had.
 void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Progress& progress) {
+  if (one.is_full || one.estimate.converged) {
+    return;
+  }
   progress("finishing " + candidate.label(), 0.9);
+  one.is_full = true;
   Refit further = one;
   try {
     continue_refit(further, data, 16);
@@ -199,10 +202,8 @@ void finish_one(Refit& one, const Candidate& candidate, const Data& data, const 
 void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::vector<Candidate>& candidates,
                    const Data& data, const Progress& progress) {
   constexpr double kLeft = 0.1;
-  const Scores& given = stage.estimate.predicted.scores;
   Refit& leader = refits.front();
-  if (!leader.estimate.converged &&
-      leader.square() < kLeft * (given.train * given.train + given.held_out * given.held_out)) {
+  if (leader.square() < kLeft * stage.estimate.predicted.scores.square()) {
     finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, progress);
   }
 }
@@ -215,7 +216,7 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
     const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
-    if (!one.estimate.converged && (near || (r < kFirst && !at_floor(refits, options)))) {
+    if (near || (r < kFirst && !at_floor(refits, options))) {
       finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, progress);
     }
   }

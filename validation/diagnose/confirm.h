@@ -17,11 +17,9 @@ struct Refit {
   Estimate estimate;
   std::vector<int> added;  ///< the candidates' effects in the extended model
   int own = 0;             ///< number of their parameters (the last ones)
+  bool is_full = false;    ///< has been refitted as far as it will be
   /// Mean squares of train and of held-out as foretold, floor units: what refits are compared by.
-  double square() const {
-    const Scores& scores = estimate.predicted.scores;
-    return scores.train * scores.train + scores.held_out * scores.held_out;
-  }
+  double square() const { return estimate.predicted.scores.square(); }
 };
 
 /// Best first; what is equal stays in its order.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/accept.h"
@@ -11,6 +12,7 @@
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/revise.h"
+#include "validation/predict/kept_results.h"
 #include "validation/predict/reach.h"
 
 namespace plumbline::validation {
@@ -312,7 +314,10 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  const Data some = data.thinned(options.windows);
+  Data some = data.thinned(options.windows);
+  if (!some.kept) {
+    some.kept = std::make_shared<KeptResults>();  // some work is asked for in more than one place
+  }
   try {
     const Data tried = diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
     finish(data, tried, options, progress, diagnosis);

@@ -21,7 +21,7 @@ constexpr std::size_t kPairs = 6;        // that are returned
 Data without_stiffness(const Stage& stage, const Data& data) {
   constexpr double kLeast = 40.0;  // in a sample of kUsual
   constexpr double kUsual = 1e-3;  // s
-  constexpr double kTimesTheStage = 5.0;
+  constexpr double kTimesTheStage = 3.0;
   constexpr double kEvaluationsOfStep = 3.0;
   PredictorPool pool(stage.model, data);
   std::vector<double> steps(data.windows.size());  // of a sample; few windows may hold an impact
@@ -62,6 +62,12 @@ void sort_and_join(std::vector<Pair>& pairs) {
     }
   }
   pairs = std::move(kept);
+}
+
+/// It explains something alone. What follows one that does not would be what follows the stage itself.
+bool is_material(const Refit& refit, const Stage& stage, const DiagnoseOptions& options) {
+  const double kept = 1.0 - options.material;
+  return refit.square() < kept * kept * stage.estimate.predicted.scores.square();
 }
 
 /// After a single refit whatever helps it most.
@@ -147,7 +153,9 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
     }
   }
   for (std::size_t r = 0; r < std::min(kFirsts, tried.refits.size()); ++r) {
-    add_followers(tried, tried.refits[r], catalogue, data, options, progress, pairs);
+    if (is_material(tried.refits[r], tried.stage, options)) {
+      add_followers(tried, tried.refits[r], catalogue, data, options, progress, pairs);
+    }
   }
   sort_and_join(pairs);
   return pairs;

@@ -57,6 +57,12 @@ double gain(const Remaining& left, const std::vector<Eigen::Index>& chosen) {
   return g.dot(H.ldlt().solve(g));
 }
 
+/// The same two candidates, in whichever order and from whatever starts.
+bool is_same_pair(const PairHypothesis& one, const PairHypothesis& other) {
+  const auto first = std::minmax(one.first.candidate, one.second.candidate);
+  return first == std::minmax(other.first.candidate, other.second.candidate);
+}
+
 }  // namespace
 
 bool has_tangent(const Candidate& candidate, const effects::Values& start) {
@@ -193,8 +199,14 @@ std::vector<PairHypothesis> Tangents::pairs(std::size_t most) const {
   std::stable_sort(found.begin(), found.end(), [](const PairHypothesis& one, const PairHypothesis& other) {
     return one.promised() < other.promised();
   });
-  found.resize(std::min(most, found.size()));
-  return found;
+  std::vector<PairHypothesis> best;
+  for (std::size_t i = 0; i < found.size() && best.size() < most; ++i) {
+    const auto is_same = [&](const PairHypothesis& other) { return is_same_pair(found[i], other); };
+    if (std::none_of(best.begin(), best.end(), is_same)) {
+      best.push_back(std::move(found[i]));
+    }
+  }
+  return best;
 }
 
 }  // namespace plumbline::validation

@@ -28,7 +28,7 @@ class Tangents {
   /// What each promises alone; without those that hardly move the prediction.
   std::vector<Hypothesis> promises() const;
 
-  /// The `most` pairs that promise most together, best first.
+  /// The `most` pairs of candidates that promise most together, best first, each from its best starts.
   std::vector<PairHypothesis> pairs(std::size_t most) const;
 
  private:

@@ -13,6 +13,7 @@ namespace plumbline::validation {
 struct Scores {
   double train = 0.0;
   double held_out = 0.0;
+  double square() const { return train * train + held_out * held_out; }
 };
 
 /// The held-out windows as the train windows foretell them with what these leave open of the parameters
@@ -33,7 +34,7 @@ struct Estimate {
   double cost =
       0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand
   int iterations = 0;
-  bool converged = false;
+  bool converged = false;  ///< more iterations would gain nothing
 };
 
 struct EstimateOptions {
@@ -52,10 +53,11 @@ Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 /// The estimate with what is known beforehand (Prior), by Gauss-Newton steps on the reduced equations, for
 /// many models in a short time: one pass over the windows gives the step of the parameters and of all initial
 /// states, held-out ones included. Steps that raise the cost are shortened. Stops when a step promises less
-/// than options.tolerance of the cost. With stops or play the error over a long window has many minima:
-/// initial states come from short beginnings of the windows, then longer ones, each from where the one before
-/// ended; and where the error then stays above the floor, the parameters too, if that is better.
-/// Throws std::runtime_error when the model cannot be integrated from the start values.
+/// than options.tolerance of the cost, when no step helps, or when three in a row have gained less than that.
+/// With stops or play the error over a long window has many minima: initial states come from short beginnings
+/// of the windows, then longer ones, each from where the one before ended; and where the error then stays
+/// above the floor, the parameters too, if that is better. Throws std::runtime_error when the model cannot be
+/// integrated from the start values.
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);

@@ -80,16 +80,26 @@ double promise_of(const Equations& sum, const Step& step) {
   return (gain + sum.raw - sum.left) / std::max(sum.left, 1e-300);
 }
 
-/// Marquardt's damping: none until a step fails, then as much as was needed, less after each success.
+/// Marquardt's damping: none until a step fails, then as much as was needed; less once the same has been
+/// enough twice in a row.
 class Damping {
  public:
   double value() const { return value_; }
-  void more() { value_ = std::max(kFactor * value_, kFirst); }
-  void less() { value_ = value_ > kLast ? value_ / kFactor : 0.0; }
+  void after_failure() {
+    value_ = std::max(kFactor * value_, kFirst);
+    failed_ = true;
+  }
+  void after_success() {
+    if (!failed_) {
+      value_ = value_ > kLast ? value_ / kFactor : 0.0;
+    }
+    failed_ = false;
+  }
 
  private:
   static constexpr double kFirst = 1e-3, kLast = 1e-5, kFactor = 10.0;
   double value_ = 0.0;
+  bool failed_ = false;  // since the last success
 };
 
 constexpr int kAttempts = 6;  // from no damping up to 10
@@ -132,59 +142,97 @@ Estimate initial_states(PredictorPool& pool, const std::vector<FreeParameter>& p
   return result;
 }
 
-Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point here,
-                const EstimateOptions& options) {
-  if (parameters.empty()) {
-    return initial_states(pool, parameters, std::move(here), options);
+/// A search from one point to the next.
+class Search {
+ public:
+  Search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Point& from,
+         const EstimateOptions& options)
+      : data_(pool.data()),
+        parameters_(parameters),
+        options_(options),
+        units_(search_units(parameters, from.theta)),
+        states_(pool, parameters, units_),
+        here_(from) {
+    states_.begin(here_);
+    reduced_ = states_.reduce_at(here_);
+    expect_finite(reduced_);
+    states_.settle(curved(reduced_), {}, here_, reduced_);
   }
-  const Data& data = pool.data();
-  const Eigen::VectorXd units = search_units(parameters, here.theta);
-  InitialStates states(pool, parameters, units);
-  states.begin(here);
-  std::vector<Reduced> reduced = states.reduce_at(here);
-  expect_finite(reduced);
-  states.settle(curved(reduced), {}, here, reduced);
-  Damping damping;
-  bool converged = false;
-  int iterations = 1;
-  for (; iterations < options.iterations; ++iterations) {
-    const Prior known = prior(parameters, units, here.theta);
-    const Equations sum = add_up(data, reduced, known);
-    const Room bounds = room(parameters, here.theta, units);
-    if (promise_of(sum, step_of(sum, reduced, bounds, 0.0)) < options.tolerance) {
-      converged = true;
-      break;
+
+  Estimate run() {
+    int iterations = 1;
+    bool at_end = false;
+    for (int slow = 0; iterations < options_.iterations && !at_end; ++iterations) {
+      const double before = cost();
+      at_end = !step();
+      slow = at_end || cost() < (1.0 - options_.tolerance) * before ? 0 : slow + 1;
+      at_end = at_end || slow == kSlow;
     }
-    bool better = false;
-    for (int attempt = 0; attempt < kAttempts && !better; ++attempt) {
-      Point there = moved(here, step_of(sum, reduced, bounds, damping.value()), parameters, units);
-      try {
-        std::vector<Reduced> next = states.reduce_at(there);
-        states.shorten(here, reduced, there, next);
-        states.settle(curved(next), {}, there, next);
-        const double cost = train_cost(data, next) + prior(parameters, units, there.theta).square;
-        if (is_finite(next) &&
-            cost < (train_cost(data, reduced) + known.square) * (1.0 + options.tolerance)) {
-          here = there;
-          reduced = std::move(next);
-          better = true;
-        }
-      } catch (const Stopped&) {
-        throw;
-      } catch (const std::runtime_error&) {
-        // the integrator gave up there: a shorter step
+    states_.take_last_step(here_, reduced_);
+    Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
+    result.iterations = iterations;
+    result.converged = at_end;
+    return result;
+  }
+
+ private:
+  static constexpr int kSlow = 3;  // steps in a row that gain next to nothing: what is promised is not there
+
+  /// False where no step would help, by what it promises or by trying.
+  bool step() {
+    const Equations sum = add_up(data_, reduced_, prior(parameters_, units_, here_.theta));
+    const Room bounds = room(parameters_, here_.theta, units_);
+    if (promise_of(sum, step_of(sum, reduced_, bounds, 0.0)) < options_.tolerance) {
+      return false;
+    }
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (is_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_))) {
+        damping_.after_success();
+        return true;
       }
-      better ? damping.less() : damping.more();
+      damping_.after_failure();
     }
-    if (!better) {
-      break;
+    return false;
+  }
+
+  /// Goes there if so.
+  bool is_better(Point there) {
+    try {
+      std::vector<Reduced> next = states_.reduce_at(there);
+      states_.shorten(here_, reduced_, there, next);
+      states_.settle(curved(next), {}, there, next);
+      if (!is_finite(next) || cost_of(there, next) >= cost() * (1.0 + options_.tolerance)) {
+        return false;
+      }
+      here_ = std::move(there);
+      reduced_ = std::move(next);
+      return true;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      return false;  // the integrator gave up there: a shorter step
     }
   }
-  states.take_last_step(here, reduced);
-  Estimate result = estimate_at(data, here, reduced, parameters, units);
-  result.iterations = iterations;
-  result.converged = converged;
-  return result;
+
+  double cost_of(const Point& at, const std::vector<Reduced>& reduced) const {
+    return train_cost(data_, reduced) + prior(parameters_, units_, at.theta).square;
+  }
+  double cost() const { return cost_of(here_, reduced_); }
+
+  const Data& data_;
+  const std::vector<FreeParameter>& parameters_;
+  const EstimateOptions& options_;
+  Eigen::VectorXd units_;
+  InitialStates states_;
+  Point here_;
+  std::vector<Reduced> reduced_;
+  Damping damping_;
+};
+
+Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Point& from,
+                const EstimateOptions& options) {
+  return parameters.empty() ? initial_states(pool, parameters, from, options)
+                            : Search(pool, parameters, from, options).run();
 }
 
 /// Parameters and initial states on longer and longer beginnings of the windows.
@@ -208,7 +256,9 @@ Estimate searched(PredictorPool& pool, const std::vector<FreeParameter>& paramet
     return search(pool, parameters, from, options);
   }
   if (from.x0.empty()) {
-    from = states_by_parts(pool, parameters, start);
+    // Where the values are still to be searched, windows that they do not explain are not worth the pains.
+    from =
+        parameters.empty() ? grown_states(pool, parameters, start) : states_by_parts(pool, parameters, start);
   }
   Estimate direct = search(pool, parameters, from, options);
   if (parameters.empty() || direct.scores.train < kFits) {

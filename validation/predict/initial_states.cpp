@@ -115,15 +115,18 @@ std::vector<Reduced> InitialStates::settle_all(const Settling& settling, Point& 
 void InitialStates::shorten(const Point& from, const std::vector<Reduced>& before, Point& to,
                             std::vector<Reduced>& after) {
   constexpr int kHalvings = 6;
+  constexpr int kInVain = 2;  // then it is the parameters' step that the window cannot bear
+  constexpr double kHelps = 0.7;
   constexpr double kAllowed = 2.0;
   std::vector<int> worse = curved(before);
+  std::vector<int> in_vain(before.size(), 0);
   Point shorter = to;
   for (int i = 0; i < kHalvings; ++i) {
-    const auto is_fine = [&](int w) {
+    const auto is_done = [&](int w) {
       const auto at = static_cast<std::size_t>(w);
-      return after[at].raw_sse <= kAllowed * before[at].raw_sse;
+      return after[at].raw_sse <= kAllowed * before[at].raw_sse || in_vain[at] == kInVain;
     };
-    worse.erase(std::remove_if(worse.begin(), worse.end(), is_fine), worse.end());
+    worse.erase(std::remove_if(worse.begin(), worse.end(), is_done), worse.end());
     if (worse.empty()) {
       return;
     }
@@ -134,6 +137,7 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
     const std::vector<Reduced> now = reduce_those_that_run(worse, shorter);
     for (std::size_t k = 0; k < worse.size(); ++k) {
       const auto at = static_cast<std::size_t>(worse[k]);
+      in_vain[at] = now[k].raw_sse < kHelps * after[at].raw_sse ? 0 : in_vain[at] + 1;
       if (!(after[at].raw_sse <= now[k].raw_sse)) {
         after[at] = now[k];
         to.x0[at] = shorter.x0[at];

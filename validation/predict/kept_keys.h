@@ -16,8 +16,8 @@ ResultKey key_of(const std::string& what, const model::Model& model, const Data&
 
 void add_parameters(const std::vector<FreeParameter>& parameters, ResultKey& key);
 
-/// The result that the data's file keeps under this key; else what `compute` returns, which is kept if there
-/// is a file.
+/// The result that is kept for the data under this key; else what `compute` returns, which is kept if the
+/// data keeps results at all.
 Record kept(const Data& data, const ResultKey& key, const std::function<Record()>& compute);
 
 Record record_of(const Estimate& estimate);

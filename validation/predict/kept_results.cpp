@@ -179,7 +179,7 @@ Record KeptResults::get(const ResultKey& key, const std::function<Record()>& com
 
 void KeptResults::keep(const std::string& hash, const Record& record) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (records_.emplace(hash, record).second) {
+  if (records_.emplace(hash, record).second && out_.is_open()) {
     out_ << line_of(hash, record) << std::flush;
   }
 }

@@ -52,9 +52,13 @@ struct ResultKey {
   std::string hash() const;
 };
 
-/// File of results: a first line that says from which inputs, then a line for each result (docs/formats.md).
+/// Results in memory or also in a file: a first line that says from which inputs, then a line for each result
+/// (docs/formats.md).
 class KeptResults {
  public:
+  /// In memory only.
+  KeptResults() = default;
+
   /// Begins the file, or goes on from it. `inputs` is a hash of what all its results depend on. A last line
   /// that an interruption has cut off is removed. Throws InputError (file, line, found, expected) when the
   /// file cannot be written, is another kind of file, or has results of other inputs.

@@ -54,7 +54,7 @@ bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
   if (!has_corners(pool, as_it_is, {})) {
     return false;
   }
-  const Point at = states_by_parts(pool, as_it_is, {});
+  const Point at = grown_states(pool, as_it_is, {});
   return !is_lost(data, InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at));
 }
 
@@ -77,7 +77,7 @@ Shares shares_that_can_be_searched(const model::Model& model, const Data& data) 
     return {};
   }
   Grown grown;
-  Point at = states_by_parts(pool, as_it_is, {}, &grown);
+  Point at = grown_states(pool, as_it_is, {}, &grown);
   const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.windows.size()));
   for (const int w : data.all_windows()) {

@@ -106,6 +106,29 @@ void grow(const PredictorPool& pool, const std::vector<FreeParameter>& parameter
   }
 }
 
+struct ByParts {
+  Point at;
+  Grown grown;
+  std::vector<int> open;  // windows that are above the floor
+};
+
+ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                 const Eigen::VectorXd& theta) {
+  const std::size_t count = pool.data().windows.size();
+  ByParts found{{theta, {}}, {std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)}, {}};
+  for (double share = kFirstPart; share < 1.0; share = longer_part(share)) {
+    const Data data = pool.data().beginnings(share);
+    PredictorPool part(pool.model(), data);
+    const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, found.at);
+    keep(data, std::vector<double>(count, share), found.at, reduced, data.all_windows(), found.grown);
+  }
+  std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, found.at);
+  InitialStates states(pool, parameters, {});
+  try_directly(states, above_floor(pool.data(), reduced), found.at, reduced);
+  found.open = above_floor(pool.data(), reduced);
+  return found;
+}
+
 }  // namespace
 
 bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
@@ -116,28 +139,19 @@ bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& paramete
 }
 
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                      const Eigen::VectorXd& theta, Grown* how_far) {
-  const std::size_t count = pool.data().windows.size();
-  Point at{theta, {}};
-  Grown grown{std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)};
-  double share = kFirstPart;
-  while (share < 1.0) {
-    const Data data = pool.data().beginnings(share);
-    PredictorPool part(pool.model(), data);
-    const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, at);
-    keep(data, std::vector<double>(count, share), at, reduced, data.all_windows(), grown);
-    share = longer_part(share);
-  }
-  std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, at);
-  InitialStates states(pool, parameters, {});
-  try_directly(states, above_floor(pool.data(), reduced), at, reduced);
-  const std::vector<int> open = above_floor(pool.data(), reduced);
-  begin_anew(pool, parameters, open, at, grown);
-  grow(pool, parameters, open, grown, at);
+                      const Eigen::VectorXd& theta) {
+  return by_parts(pool, parameters, theta).at;
+}
+
+Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                   const Eigen::VectorXd& theta, Grown* how_far) {
+  ByParts found = by_parts(pool, parameters, theta);
+  begin_anew(pool, parameters, found.open, found.at, found.grown);
+  grow(pool, parameters, found.open, found.grown, found.at);
   if (how_far != nullptr) {
-    *how_far = std::move(grown);
+    *how_far = std::move(found.grown);
   }
-  return at;
+  return found.at;
 }
 
 }  // namespace plumbline::validation
