@@ -186,7 +186,7 @@ class Search {
       return false;
     }
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      if (is_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_))) {
+      if (go_if_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_))) {
         damping_.after_success();
         return true;
       }
@@ -195,8 +195,8 @@ class Search {
     return false;
   }
 
-  /// Goes there if so.
-  bool is_better(Point there) {
+  /// False where it is not better there, or cannot be integrated.
+  bool go_if_better(Point there) {
     try {
       std::vector<Reduced> next = states_.reduce_at(there);
       states_.shorten(here_, reduced_, there, next);

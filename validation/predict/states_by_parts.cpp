@@ -116,11 +116,13 @@ ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramete
                  const Eigen::VectorXd& theta) {
   const std::size_t count = pool.data().windows.size();
   ByParts found{{theta, {}}, {std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)}, {}};
-  for (double share = kFirstPart; share < 1.0; share = longer_part(share)) {
+  double share = kFirstPart;
+  while (share < 1.0) {
     const Data data = pool.data().beginnings(share);
     PredictorPool part(pool.model(), data);
     const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, found.at);
     keep(data, std::vector<double>(count, share), found.at, reduced, data.all_windows(), found.grown);
+    share = longer_part(share);
   }
   std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, found.at);
   InitialStates states(pool, parameters, {});

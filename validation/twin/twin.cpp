@@ -79,9 +79,10 @@ model::EffectUse parse_effect(const std::string& text, const model::Model& model
     const std::string parameter = item.substr(0, equal);
     const int index = use.law->parameter_index(parameter);
     if (equal == std::string::npos || index < 0) {
-      std::string found = "'" + text + "': unknown parameter '";
-      found += parameter + "' of " + name + nearest_names(parameter, names);
-      throw InputError(found);
+      std::ostringstream found;
+      found << "'" << text << "': unknown parameter '" << parameter << "' of " << name
+            << nearest_names(parameter, names);
+      throw InputError(found.str());
     }
     const effects::Parameter& declared = declaration.parameters[static_cast<std::size_t>(index)];
     const double value = number_of(item.substr(equal + 1), text);
