@@ -36,10 +36,10 @@ TEST(Play, IsFittedFromFarAway) {
   EXPECT_NEAR(found.estimate.theta[2], 0.111, 0.005);
 }
 
-// What is left of a ripple moves a bristle friction a little further at every step, to no end.
+// What play leaves moves a bristle friction a little further at every step, to no end.
 TEST(GaussNewton, EndsWhereItOnlyCreeps) {
-  const Data data = bench_twins({"cogging@mLS:sine=0.02"}).thinned(4);
-  const Fitted found = fitted("lugre@mLS:level=0.002,stiffness=1,viscous=1e-4", "lugre@*", data);
+  const Data data = bench_twins({"backlash@leg_shape:gap=0.162,stiffness=117,damping=0.111"}).thinned(4);
+  const Fitted found = fitted("lugre@thigh:level=0.3,stiffness=30,viscous=1e-2", "lugre@*", data);
   EXPECT_TRUE(found.estimate.converged);
 }
 
