@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "validation/diagnose/first_of_each.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -243,15 +244,9 @@ std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
 
 /// Of several refits of one candidate only the first, which is the best.
 void keep_best_of_each(std::vector<Refit>& refits) {
-  std::vector<Refit> kept;
-  for (Refit& one : refits) {
-    const bool known = std::any_of(kept.begin(), kept.end(),
-                                   [&](const Refit& other) { return other.candidate == one.candidate; });
-    if (!known) {
-      kept.push_back(std::move(one));
-    }
-  }
-  refits = std::move(kept);
+  refits = first_of_each(std::move(refits), [](const Refit& one, const Refit& other) {
+    return one.candidate == other.candidate;
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "validation/diagnose/choose.h"
+#include "validation/diagnose/first_of_each.h"
 #include "validation/diagnose/revise.h"
 #include "validation/diagnose/tangents.h"
 
@@ -53,15 +54,7 @@ bool is_same(const Pair& one, const Pair& other) {
 void sort_and_join(std::vector<Pair>& pairs) {
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.refit.square() < b.refit.square(); });
-  std::vector<Pair> kept;
-  for (Pair& pair : pairs) {
-    const bool known =
-        std::any_of(kept.begin(), kept.end(), [&](const Pair& other) { return is_same(pair, other); });
-    if (!known && kept.size() < kPairs) {
-      kept.push_back(std::move(pair));
-    }
-  }
-  pairs = std::move(kept);
+  pairs = first_of_each(std::move(pairs), is_same, kPairs);
 }
 
 /// It explains something alone. What follows one that does not would be what follows the stage itself.

@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "validation/diagnose/first_of_each.h"
 
 namespace plumbline::validation {
 namespace {
@@ -199,14 +202,7 @@ std::vector<PairHypothesis> Tangents::pairs(std::size_t most) const {
   std::stable_sort(found.begin(), found.end(), [](const PairHypothesis& one, const PairHypothesis& other) {
     return one.promised() < other.promised();
   });
-  std::vector<PairHypothesis> best;
-  for (std::size_t i = 0; i < found.size() && best.size() < most; ++i) {
-    const auto is_same = [&](const PairHypothesis& other) { return is_same_pair(found[i], other); };
-    if (std::none_of(best.begin(), best.end(), is_same)) {
-      best.push_back(std::move(found[i]));
-    }
-  }
-  return best;
+  return first_of_each(std::move(found), is_same_pair, most);
 }
 
 }  // namespace plumbline::validation

@@ -201,12 +201,12 @@ class Search {
       std::vector<Reduced> next = states_.reduce_at(there);
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
-      if (!is_finite(next) || cost_of(there, next) >= cost() * (1.0 + options_.tolerance)) {
-        return false;
+      const bool better = is_finite(next) && cost_of(there, next) < cost() * (1.0 + options_.tolerance);
+      if (better) {
+        here_ = std::move(there);
+        reduced_ = std::move(next);
       }
-      here_ = std::move(there);
-      reduced_ = std::move(next);
-      return true;
+      return better;
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
