@@ -214,6 +214,32 @@ bool is_moving_mass(const model::Skeleton& skeleton, const std::string& name) {
   return false;
 }
 
+bool is_null(const model::EffectUse& use) { return use.law->is_null(use.numbers().data()); }
+
+/// A law that brings states of its own to the system, by its bristles or by releasing a ratio, and that a
+/// parameter at its null value would make nothing, is left next to nothing: initial states that were found
+/// with it still fit.
+void keep_states(const model::Model& before, const FreeParameter& parameter, model::Model& model) {
+  constexpr double kNext = 1e-6, kNextToRigid = 1e-3;  // of the typical value; stiffer costs the integrator
+  const auto effect = static_cast<std::size_t>(parameter.id.effect);
+  model::EffectUse& use = model.effects[effect];
+  const bool brings_states = use.law->state_count() > 0 || use.law->sits_at(Place::ratio);
+  if (!brings_states || !is_null(use) || is_null(before.effects[effect])) {
+    return;
+  }
+  const auto p = static_cast<std::size_t>(parameter.id.parameter);
+  double& value = use.values[p].value;
+  if (value != use.law->declaration().parameters[p].null_value) {
+    return;
+  }
+  const double null = to_search(parameter.scale, value);
+  const double next = parameter.scale == effects::Scale::reciprocal ? kNextToRigid : kNext;
+  const double step = next * std::abs(to_search(parameter.scale, parameter.typical));
+  const double other = from_search(parameter.scale, null + step);
+  const bool inside = other >= parameter.lower && other <= parameter.upper;
+  value = inside ? other : from_search(parameter.scale, null - step);
+}
+
 }  // namespace
 
 std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
@@ -314,6 +340,7 @@ Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParam
 
 model::Model with_values(model::Model model, const std::vector<FreeParameter>& parameters,
                          const Eigen::VectorXd& theta) {
+  const model::Model before = model;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     std::vector<model::ParameterId> ids{parameters[p].id};
     ids.insert(ids.end(), parameters[p].also.begin(), parameters[p].also.end());
@@ -322,6 +349,9 @@ model::Model with_values(model::Model model, const std::vector<FreeParameter>& p
           .values[static_cast<std::size_t>(id.parameter)]
           .value = theta[static_cast<Eigen::Index>(p)];
     }
+  }
+  for (const FreeParameter& parameter : parameters) {
+    keep_states(before, parameter, model);
   }
   return model;
 }

@@ -39,7 +39,8 @@ std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, co
 
 Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters);
 
-/// The model with the parameters set.
+/// The model with the parameters set. A law that brings states (bristles, a released ratio) and was not null
+/// does not become it: initial states found with the model fit the one that is returned.
 model::Model with_values(model::Model model, const std::vector<FreeParameter>& parameters,
                          const Eigen::VectorXd& theta);
 

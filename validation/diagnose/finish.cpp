@@ -24,6 +24,19 @@ Stage unless_lost(const Stage& stage, const Data& data) {
   }
 }
 
+/// Has the search left the law at nothing, exactly?
+bool is_nothing(const Stage& stage, std::size_t effect) {
+  const model::EffectUse& use = stage.model.effects[effect];
+  effects::Values values = use.numbers();
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    if (stage.parameters[p].id.effect == static_cast<int>(effect)) {
+      values[static_cast<std::size_t>(stage.parameters[p].id.parameter)] =
+          stage.estimate.theta[static_cast<Eigen::Index>(p)];
+    }
+  }
+  return use.law->is_null(values.data());
+}
+
 }  // namespace
 
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
@@ -72,12 +85,10 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
 
 void take_open_values(const Data& all, Diagnosis& diagnosis) {
   Stage& stage = diagnosis.final_stage;
-  const model::Model fitted = with_values(stage.model, stage.parameters, stage.estimate.theta);
-  const std::size_t first = fitted.effects.size() - diagnosis.accepted.size();
+  const std::size_t first = stage.model.effects.size() - diagnosis.accepted.size();
   bool open = false;
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
-    const model::EffectUse& use = fitted.effects[first + i];
-    diagnosis.accepted[i].open_in_train = use.law->is_null(use.numbers().data());
+    diagnosis.accepted[i].open_in_train = is_nothing(stage, first + i);
     open = open || diagnosis.accepted[i].open_in_train;
   }
   if (!open) {

@@ -1,6 +1,7 @@
 // Gauss-Newton on the reduced equations of all windows.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/foretell.h"
@@ -85,9 +86,15 @@ double promise_of(const Equations& sum, const Step& step) {
 class Damping {
  public:
   double value() const { return value_; }
-  void after_failure() {
-    value_ = std::max(kFactor * value_, kFirst);
+  /// After a step that left so many times the cost. A ruinous one was not a little too long: far more at
+  /// once. False when there is no more.
+  bool after_failure(double times) {
     failed_ = true;
+    if (value_ == kMost) {
+      return false;
+    }
+    value_ = std::min(kMost, std::max(kFactor * value_, kFirst) * (times > kRuinous ? kRuinFactor : 1.0));
+    return true;
   }
   void after_success() {
     if (!failed_) {
@@ -97,12 +104,11 @@ class Damping {
   }
 
  private:
-  static constexpr double kFirst = 1e-3, kLast = 1e-5, kFactor = 10.0;
+  static constexpr double kFirst = 1e-3, kLast = 1e-5, kMost = 100.0, kFactor = 10.0;
+  static constexpr double kRuinous = 100.0, kRuinFactor = 100.0;
   double value_ = 0.0;
   bool failed_ = false;  // since the last success
 };
-
-constexpr int kAttempts = 6;  // from no damping up to 10
 
 bool is_finite(const std::vector<Reduced>& reduced) {
   return std::all_of(reduced.begin(), reduced.end(), [](const Reduced& one) {
@@ -185,32 +191,38 @@ class Search {
     if (promise_of(sum, step_of(sum, reduced_, bounds, 0.0)) < options_.tolerance) {
       return false;
     }
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      if (go_if_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_))) {
+    while (true) {
+      const double times =
+          go_if_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_));
+      if (times < 1.0) {
         damping_.after_success();
         return true;
       }
-      damping_.after_failure();
+      if (!damping_.after_failure(times)) {
+        return false;
+      }
     }
-    return false;
   }
 
-  /// False where it is not better there, or cannot be integrated.
-  bool go_if_better(Point there) {
+  /// The cost there in units of the present one with its tolerance; infinite where it cannot be integrated.
+  double go_if_better(Point there) {
     try {
       std::vector<Reduced> next = states_.reduce_at(there);
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
-      const bool better = is_finite(next) && cost_of(there, next) < cost() * (1.0 + options_.tolerance);
-      if (better) {
+      if (!is_finite(next)) {
+        return std::numeric_limits<double>::infinity();
+      }
+      const double times = cost_of(there, next) / (cost() * (1.0 + options_.tolerance));
+      if (times < 1.0) {
         here_ = std::move(there);
         reduced_ = std::move(next);
       }
-      return better;
+      return times;
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
-      return false;  // the integrator gave up there: a shorter step
+      return std::numeric_limits<double>::infinity();  // the integrator gave up there: a shorter step
     }
   }
 
