@@ -7,6 +7,7 @@
 #include "simulator/effects/actuator_lag.h"
 #include "simulator/effects/added_mass.h"
 #include "simulator/effects/backlash.h"
+#include "simulator/effects/boom.h"
 #include "simulator/effects/cable_stretch.h"
 #include "simulator/effects/cogging.h"
 #include "simulator/effects/com_shift.h"
@@ -62,6 +63,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const AddedMass>(),
       std::make_shared<const ComShift>(),
       std::make_shared<const GravityTilt>(),
+      std::make_shared<const Boom>(),
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
   });

@@ -85,6 +85,8 @@ std::string to_string(Place place) {
       return "world";
     case Place::foot:
       return "foot";
+    case Place::base:
+      return "base";
   }
   return "unknown";
 }

@@ -12,8 +12,8 @@ namespace plumbline::effects {
 /// coordinate: a named scalar position (joint or linear combination); motor: a motor's own coordinate;
 /// ratio: a rigid coupling of a motor to coordinates, which the effect releases;
 /// body: a link's mass properties; sensor: one measured channel; world: gravity;
-/// foot: a point that meets the ground (laws in contact/).
-enum class Place { coordinate, motor, ratio, body, sensor, world, foot };
+/// foot: a point that meets the ground (laws in contact/); base: the two slides that carry a planar robot.
+enum class Place { coordinate, motor, ratio, body, sensor, world, foot, base };
 
 /// The line along which a parameter is searched: as it is, by its logarithm (positive scales such as a
 /// speed), or by its reciprocal (stiffnesses whose null value is infinite).
@@ -128,6 +128,8 @@ struct StructureChange {
   Eigen::Vector3d com_shift = Eigen::Vector3d::Zero();  ///< of the body, in its frame, m
   Eigen::Vector3d tilt =
       Eigen::Vector3d::Zero();  ///< rotation vector applied to gravity in the world frame, rad
+  double curvature = 0.0;       ///< of the base's ways, above 0 about a point to the left, 1/m
+  double level = 0.0;           ///< height at which the upward way is straight, m
 };
 
 class StructureLaw : public Law {

@@ -4,12 +4,11 @@ namespace plumbline::model {
 namespace {
 
 Eigen::Isometry3d moved(const Joint& joint, double q) {
-  Eigen::Isometry3d J = Eigen::Isometry3d::Identity();
-  if (joint.type == JointType::revolute) {
-    J.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
-  } else {
-    J.translation() = q * joint.axis.normalized();
+  if (joint.type == JointType::prismatic) {
+    return slid(joint.axis.normalized(), joint.arc, q);
   }
+  Eigen::Isometry3d J = Eigen::Isometry3d::Identity();
+  J.linear() = Eigen::AngleAxisd(q, joint.axis.normalized()).toRotationMatrix();
   return J;
 }
 

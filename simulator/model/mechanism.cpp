@@ -104,6 +104,7 @@ struct Mechanism::Impl {
     it.coordinate = coordinate;
     it.slides = joint.type == JointType::prismatic;
     it.axis = joint.X_CJ.linear() * joint.axis.normalized();
+    it.arc = {joint.X_CJ.linear() * joint.arc.turn, joint.arc.straight};
     it.hinge = joint.X_CJ.translation();
     it.X_PB = X_PJ * joint.X_CJ.inverse();
     it.mass = body.mass;
@@ -122,6 +123,9 @@ struct Mechanism::Impl {
       case JointType::revolute:
         return SimTK::MobilizedBody::Pin(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
       case JointType::prismatic:
+        if (joint.arc.is_bent()) {
+          return add_arc(parent, rigid, joint, X_PJ);
+        }
         return SimTK::MobilizedBody::Slider(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
       case JointType::fixed:
         break;
@@ -129,12 +133,31 @@ struct Mechanism::Impl {
     return SimTK::MobilizedBody::Weld(parent, X_PF, rigid, X_BM).getMobilizedBodyIndex();
   }
 
+  /// A pin about the arc's centre.
+  static SimTK::MobilizedBodyIndex add_arc(SimTK::MobilizedBody& parent, const SimTK::Body::Rigid& rigid,
+                                           const Joint& joint, const Eigen::Isometry3d& X_PJ) {
+    const Eigen::Vector3d axis = joint.axis.normalized();
+    Eigen::Isometry3d at_centre = Eigen::Isometry3d::Identity();
+    at_centre.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.arc.turn).toRotationMatrix();
+    at_centre.translation() = centre_of(axis, joint.arc);
+    Eigen::Isometry3d on_child = at_centre;
+    on_child.translation() -= joint.arc.straight * axis;
+    return SimTK::MobilizedBody::Pin(parent, to_simtk(X_PJ * at_centre), rigid,
+                                     to_simtk(joint.X_CJ * on_child))
+        .getMobilizedBodyIndex();
+  }
+
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     SimTK::Vector& Q = state.updQ();
     SimTK::Vector& U = state.updU();
-    for (int i = 0; i < size; ++i) {
-      Q[i] = q[i];
-      U[i] = v[i];
+    for (const TreeBody& body : bodies) {
+      const int i = body.coordinate;
+      if (i >= 0) {
+        const double per_metre = body.arc.is_bent() ? body.arc.turn.norm() : 1.0;
+        Q[i] = per_metre * (q[i] - body.arc.straight);
+        U[i] = per_metre * v[i];
+      }
     }
   }
 };

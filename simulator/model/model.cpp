@@ -5,6 +5,7 @@
 
 #include "simulator/model/kinds.h"
 #include "simulator/model/places.h"
+#include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::model {
@@ -95,6 +96,11 @@ std::vector<std::string> Model::places(effects::Place place) const {
     case effects::Place::foot:
       append_names(feet, names);
       break;
+    case effects::Place::base:
+      if (planar_base(skeleton)) {
+        names.emplace_back("base");
+      }
+      break;
   }
   return names;
 }
@@ -114,6 +120,7 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
       return sensor == nullptr || is_angular(*this, sensor->measures);
     }
     case effects::Place::foot:
+    case effects::Place::base:
       return false;
     case effects::Place::body:
     case effects::Place::world:

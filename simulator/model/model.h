@@ -10,6 +10,7 @@
 
 #include "simulator/effects/catalogue.h"
 #include "simulator/effects/law.h"
+#include "simulator/model/arc.h"
 
 namespace plumbline::model {
 
@@ -44,6 +45,7 @@ struct Joint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_CJ = Eigen::Isometry3d::Identity();
+  Arc arc;  ///< of a prismatic joint, in J
 };
 
 struct Skeleton {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::model {
@@ -299,6 +300,9 @@ void Plant::apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::V
       if (change.tilt.norm() > 0.0) {
         skeleton.gravity = Eigen::AngleAxisd(change.tilt.norm(), change.tilt.normalized()) * skeleton.gravity;
       }
+      return;
+    case Place::base:
+      bend_base(skeleton, *planar_base(skeleton), change.curvature, change.level);
       return;
     default:
       for (int m = 0; m < motors(); ++m) {

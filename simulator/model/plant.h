@@ -106,7 +106,7 @@ class Plant {
   FootDepth foot_depth(int foot, const double* x);
   /// d(depth)/dz on level ground, 1 x positions; and d(depth)/d(parameters), 1 x parameters.
   Eigen::RowVectorXd depth_slope(int foot, const double* x);
-  Eigen::RowVectorXd depth_slope(int foot, const std::vector<ParameterId>& parameters) const;
+  Eigen::RowVectorXd depth_slope(int foot, const double* x, const std::vector<ParameterId>& parameters);
 
   /// Pure delay of a motor's command, s.
   double delay(int motor) const;
@@ -240,6 +240,14 @@ class Plant {
     Eigen::VectorXd extra_inertia;  // on all full coordinates, diagonal
     Eigen::MatrixXd extra_reduced;  // S' (diag + pulleys) S
   };
+  /// Perturbed by one structural parameter.
+  struct Variant {
+    ParameterId id;
+    double step = 0.0;
+    Structure structure;
+    Eigen::MatrixXd dM;
+    Eigen::VectorXd dh;
+  };
 
   Eigen::VectorXd full_direction(const std::string& name) const;
   Eigen::VectorXd stretch_direction(const Ratio& ratio) const;
@@ -262,6 +270,8 @@ class Plant {
   void ground_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
   void foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
                     Eigen::Ref<Eigen::MatrixXd> A);
+  void find_turning(const FootSlot& slot, const Touch& at);
+  void leverage_tangent(const FootSlot& slot, const Touch& at, const double* x);
   void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void ground_energetics(const double* x, Energetics& e) const;
   void plate_outputs(const double* x, double* y);
@@ -294,8 +304,12 @@ class Plant {
                                   const double* x, const Eigen::MatrixXd& A, effects::Values moved,
                                   double step, Eigen::Ref<Eigen::VectorXd> column);
   void actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
+  Variant& variant_of(ParameterId id, double step);
   void structure_tangent(const double* x, ParameterId id, double step, bool refresh,
                          Eigen::Ref<Eigen::VectorXd> column);
+  void base_tangent(const SampleMotion& sample, ParameterId id, double step,
+                    Eigen::Ref<Eigen::VectorXd> column);
+  bool sits_at_base(int effect) const;
 
   Model model_;
   std::vector<effects::Values> values_;
@@ -325,15 +339,10 @@ class Plant {
   Eigen::MatrixXd rigid_A_;
   Eigen::MatrixXd slopes_;  // d(generalised force)/dx
   Eigen::MatrixXd foot_J_;
+  Eigen::RowVectorXd foot_yaw_;
+  Eigen::Matrix3Xd foot_V_;  // d(foot's velocity)/dz; without columns where it is not asked for
   Eigen::VectorXd foot_row_, moved_x_, up_, down_;
   std::vector<double> switch_values_;
-  struct Variant {
-    ParameterId id;
-    double step = 0.0;
-    Structure structure;
-    Eigen::MatrixXd dM;
-    Eigen::VectorXd dh;
-  };
   std::vector<Variant> variants_;  // perturbed structures, one for each structural parameter asked for
 };
 

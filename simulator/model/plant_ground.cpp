@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kDepthStep = 1e-8;  // m
 constexpr double kSpeedStep = 1e-4;  // m/s: the root of a speed has no slope at rest
+constexpr double kBaseStep = 1e-6;   // 1/m or m
 
 }  // namespace
 
@@ -145,8 +146,9 @@ const Eigen::MatrixXd& Plant::foot_jacobian(const FootSlot& slot, const Touch& a
   return foot_J_;
 }
 
-// Adds the ground's own slopes: differences of the laws, no dynamics, the foot's place on the link held.
-// Forces go to slopes_, rates of bristles to A. Out of the ground bristles straighten, and nothing else.
+// Adds the ground's own slopes: differences of the laws, no dynamics. Forces go to slopes_, rates of bristles
+// to A. Out of the ground bristles straighten, and nothing else. Over a motion, where slopes are to be right
+// and not only stable, also what turning the leg does to a foot's velocity and to the leverage of its force.
 // A writable view is passed by value.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Plant::ground_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
@@ -159,16 +161,53 @@ void Plant::ground_tangent(const double* x, const double* change, Eigen::Ref<Eig
   for (const FootSlot& slot : feet_) {
     const Touch at = touch(slot);
     foot_jacobian(slot, at);
+    foot_V_.resize(3, 0);
     Touch half;
     if (change != nullptr) {
       half.depth = -0.5 * foot_J_.row(2).dot(Eigen::Map<const Eigen::VectorXd>(change, nz_));
       half.velocity.noalias() = 0.5 * foot_J_ * Eigen::Map<const Eigen::VectorXd>(change + nz_, nz_);
+      find_turning(slot, at);
     }
     if (at.depth + std::abs(half.depth) > 0.0) {
       foot_tangent(slot, at, half, moved_x_.data(), A);
     }
     bristle_tangent(slot, at, moved_x_.data(), A);
+    if (change != nullptr) {
+      leverage_tangent(slot, at, x);
+    }
   }
+}
+
+// How a foot's velocity, in the directions of its link, changes with z while dz/dt is held, and how these
+// directions turn: foot_V_ (3 x positions), foot_yaw_ (1 x positions).
+void Plant::find_turning(const FootSlot& slot, const Touch& at) {
+  const TreeDynamics& tree = structure_.mechanism->tree();
+  Eigen::Matrix3Xd by_joints;
+  tree.station_velocity_slope(slot.body, at.position, by_joints);
+  const Eigen::RowVectorXd yaw = tree.yaw_slope(slot.body);
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(at.velocity);
+  foot_V_.setZero(3, nz_);
+  foot_yaw_.setZero(nz_);
+  for (int j = 0; j < n_tree_; ++j) {
+    for (const Entry& entry : S_rows_[static_cast<std::size_t>(j)]) {
+      foot_V_.col(entry.index) += entry.value * (by_joints.col(j) - yaw[j] * across);
+      foot_yaw_[entry.index] += entry.value * yaw[j];
+    }
+  }
+}
+
+// What a force that is the same to the link does as it turns with it, and with its leverage.
+void Plant::leverage_tangent(const FootSlot& slot, const Touch& at, const double* x) {
+  Touch pressed = at;
+  press(slot, x, pressed, nullptr);
+  if (pressed.force.isZero(0.0)) {
+    return;
+  }
+  const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(pressed.force);
+  slopes_.leftCols(nz_).noalias() += (foot_J_.transpose() * turned) * foot_yaw_;
+  Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(n_tree_, n_tree_);
+  structure_.mechanism->tree().add_force_slope(slot.body, pressed.position, pressed.force, by_joints);
+  slopes_.leftCols(nz_).noalias() += S_tree_.transpose() * by_joints * S_tree_;
 }
 
 // By depth and by the velocity's three parts, as wide as they change on the way: mean slopes, as in
@@ -187,18 +226,21 @@ void Plant::foot_tangent(const FootSlot& slot, const Touch& at, const Touch& hal
     press(slot, x, minus, down_.data());
     const double per = (by_depth ? -0.5 : 0.5) / step;  // depth falls where the foot rises
     const Eigen::Vector3d force = per * (plus.force - minus.force);
-    const Eigen::Index first = by_depth ? 0 : nz_;
-    const Eigen::Index row = by_depth ? 2 : k;
-    for (Eigen::Index i = 0; i < nz_; ++i) {
-      const double share = foot_J_(row, i);
+    const auto add = [&](Eigen::Index column, double share) {
       if (share == 0.0) {
-        continue;
+        return;
       }
-      slopes_.col(first + i).noalias() += foot_J_.transpose() * (share * force);
+      slopes_.col(column).noalias() += foot_J_.transpose() * (share * force);
       for (const FootSlot::Drag& use : slot.drags) {
         for (int s = use.state; s >= 0 && s < use.state + use.law->state_count(); ++s) {
-          A(s, first + i) += share * per * (up_[s] - down_[s]);
+          A(s, column) += share * per * (up_[s] - down_[s]);
         }
+      }
+    };
+    for (Eigen::Index i = 0; i < nz_; ++i) {
+      add(by_depth ? i : nz_ + i, foot_J_(by_depth ? 2 : k, i));
+      if (!by_depth && foot_V_.cols() > 0) {
+        add(i, foot_V_(k, i));
       }
     }
   }
@@ -277,17 +319,28 @@ Eigen::RowVectorXd Plant::depth_slope(int foot, const double* x) {
   return -foot_jacobian(*slot, touch(*slot)).row(2);
 }
 
-Eigen::RowVectorXd Plant::depth_slope(int foot, const std::vector<ParameterId>& parameters) const {
+// By what raises the ground, and by what carries the foot elsewhere.
+Eigen::RowVectorXd Plant::depth_slope(int foot, const double* x, const std::vector<ParameterId>& parameters) {
   Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
   const FootSlot* slot = slot_of(foot);
   for (std::size_t p = 0; slot != nullptr && p < parameters.size(); ++p) {
+    double& here = slope[static_cast<Eigen::Index>(p)];
     for (const FootSlot::Change& use : slot->changes) {
       if (use.effect == parameters[p].effect) {
         effects::Values unit(values_[static_cast<std::size_t>(use.effect)].size(), 0.0);
         const double before = use.law->change(unit.data()).height;
         unit[static_cast<std::size_t>(parameters[p].parameter)] = 1.0;
-        slope[static_cast<Eigen::Index>(p)] = use.law->change(unit.data()).height - before;
+        here = use.law->change(unit.data()).height - before;
       }
+    }
+    if (sits_at_base(parameters[p].effect)) {
+      const double before = foot_depth(foot, x).depth;
+      Variant& variant = variant_of(parameters[p], kBaseStep);
+      std::swap(structure_, variant.structure);
+      rigid_known_ = false;
+      here = (foot_depth(foot, x).depth - before) / variant.step;
+      std::swap(structure_, variant.structure);
+      rigid_known_ = false;
     }
   }
   return slope;

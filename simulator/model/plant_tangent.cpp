@@ -154,32 +154,56 @@ void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Ei
   actuator_tangent(x, command, A);
 }
 
-void Plant::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
-                              Eigen::Ref<Eigen::VectorXd> column) {
-  auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
+Plant::Variant& Plant::variant_of(ParameterId id, double step) {
+  const auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
     return variant.id.effect == id.effect && variant.id.parameter == id.parameter;
   });
-  if (found == variants_.end()) {
-    const double here = value(id);
-    Variant variant;
-    variant.id = id;
-    variant.step = step;
-    double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
-    stored = here + step;
-    variant.structure = make_structure();
-    stored = here;
-    variants_.push_back(std::move(variant));
-    found = variants_.end() - 1;
-    refresh = true;
+  if (found != variants_.end()) {
+    return *found;
   }
-  if (refresh || found->dM.size() == 0) {
+  double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
+  const double here = stored;
+  Variant variant;
+  variant.id = id;
+  variant.step = step;
+  stored = here + step;
+  variant.structure = make_structure();
+  stored = here;
+  variants_.push_back(std::move(variant));
+  return variants_.back();
+}
+
+void Plant::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
+                              Eigen::Ref<Eigen::VectorXd> column) {
+  Variant& variant = variant_of(id, step);
+  if (refresh || variant.dM.size() == 0) {
     Eigen::MatrixXd M;
     Eigen::VectorXd h;
-    evaluate_rigid(x, found->structure, M, h);
-    found->dM = (M - M_) / found->step;
-    found->dh = (h - h_) / found->step;
+    evaluate_rigid(x, variant.structure, M, h);
+    variant.dM = (M - M_) / variant.step;
+    variant.dh = (h - h_) / variant.step;
   }
-  column.segment(nz_, nz_) = -factor_.solve(found->dM * acceleration_ + found->dh);
+  column.segment(nz_, nz_) = -factor_.solve(variant.dM * acceleration_ + variant.dh);
+}
+
+bool Plant::sits_at_base(int effect) const {
+  return model_.effects[static_cast<std::size_t>(effect)].law->sits_at(effects::Place::base);
+}
+
+// The ways of the base carry the feet: the whole rate changes, not the rigid bodies' part alone.
+void Plant::base_tangent(const SampleMotion& sample, ParameterId id, double step,
+                         Eigen::Ref<Eigen::VectorXd> column) {
+  Variant& variant = variant_of(id, step);
+  const auto rate_here = [&]() {
+    rigid_known_ = false;
+    Eigen::VectorXd xdot = Eigen::VectorXd::Zero(nx_);
+    rate(sample.middle, sample.command, xdot.data());
+    return xdot;
+  };
+  std::swap(structure_, variant.structure);
+  const Eigen::VectorXd there = rate_here();
+  std::swap(structure_, variant.structure);
+  column = (there - rate_here()) / variant.step;
 }
 
 // A force that turns with the velocity's sign within the sample is averaged over it. To move the rest that a
@@ -274,6 +298,10 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
     }
   }
   for (const StructureSlot& slot : structures_) {
+    if (slot.effect == id.effect && sits_at_base(id.effect)) {
+      base_tangent(sample, id, step, column);
+      return;
+    }
     if (slot.effect == id.effect) {
       structure_tangent(sample.middle, id, step, refresh, column);
       return;

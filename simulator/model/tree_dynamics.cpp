@@ -1,5 +1,6 @@
 #include "simulator/model/tree_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,7 +50,11 @@ void TreeDynamics::pose(std::size_t b, const Eigen::VectorXd& q) {
   const Turn& turn = turns_[b];
   Eigen::Matrix3d R_PB = turn.at_zero;
   Eigen::Vector3d p_PB = turn.origin;
-  if (it.coordinate >= 0 && it.slides) {
+  if (it.coordinate >= 0 && it.arc.is_bent()) {
+    const Eigen::Isometry3d way = slid(it.axis, it.arc, q[it.coordinate]);
+    R_PB = turn.at_zero * way.linear();
+    p_PB += turn.at_zero * way.translation();
+  } else if (it.coordinate >= 0 && it.slides) {
     p_PB += q[it.coordinate] * turn.slide;
   } else if (it.coordinate >= 0) {
     R_PB += std::sin(q[it.coordinate]) * turn.sine + (1.0 - std::cos(q[it.coordinate])) * turn.versine;
@@ -82,7 +87,10 @@ void TreeDynamics::weigh(std::size_t b) {
     return;
   }
   const Eigen::Vector3d axis = R_WB * it.axis;
-  if (it.slides) {
+  if (it.arc.is_bent()) {
+    const Eigen::Vector3d turn = R_WB * it.arc.turn;
+    axis_[b] << turn, axis + (p_[b] + R_WB * it.hinge).cross(turn);
+  } else if (it.slides) {
     axis_[b] << Eigen::Vector3d::Zero(), axis;
   } else {
     axis_[b] << axis, (p_[b] + R_WB * it.hinge).cross(axis);
@@ -170,6 +178,64 @@ void TreeDynamics::add_force(int body, const Eigen::Vector3d& p_W, const Eigen::
     const int coordinate = bodies_[static_cast<std::size_t>(a)].coordinate;
     if (coordinate >= 0) {
       Q[coordinate] += axis_[static_cast<std::size_t>(a)].dot(wrench);
+    }
+  }
+}
+
+void TreeDynamics::station_velocity_slope(int body, const Eigen::Vector3d& p_W,
+                                          Eigen::Matrix3Xd& slope) const {
+  slope.setZero(3, size_);
+  const Eigen::Vector3d v = station_velocity(body, p_W);
+  for (int b = body; b >= 0;) {
+    const TreeBody& it = bodies_[static_cast<std::size_t>(b)];
+    const Vector6& axis = axis_[static_cast<std::size_t>(b)];
+    if (it.coordinate >= 0) {
+      const Eigen::Vector3d J = axis.tail<3>() + axis.head<3>().cross(p_W);
+      slope.col(it.coordinate) = axis.head<3>().cross(v);
+      if (it.parent >= 0) {
+        const Vector6& carrier = velocity_[static_cast<std::size_t>(it.parent)];
+        slope.col(it.coordinate) +=
+            carrier.head<3>().cross(J) - axis.head<3>().cross(station_velocity(it.parent, p_W));
+      }
+    }
+    b = it.parent;
+  }
+}
+
+Eigen::RowVectorXd TreeDynamics::yaw_slope(int body) const {
+  Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(size_);
+  const Eigen::Vector3d y = rotation(body).col(1);
+  const double seen = std::max(y.head<2>().squaredNorm(), 1e-6);  // on its side it has no direction
+  for (int b = body; b >= 0; b = bodies_[static_cast<std::size_t>(b)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(b)].coordinate;
+    if (coordinate >= 0) {
+      const Eigen::Vector3d turned = axis_[static_cast<std::size_t>(b)].head<3>().cross(y);
+      slope[coordinate] = (y.x() * turned.y() - y.y() * turned.x()) / seen;
+    }
+  }
+  return slope;
+}
+
+void TreeDynamics::add_force_slope(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
+                                   Eigen::MatrixXd& K) const {
+  const auto carrier = [&](int b) { return bodies_[static_cast<std::size_t>(b)].parent; };
+  for (int a = body; a >= 0; a = carrier(a)) {
+    const int row = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (row < 0) {
+      continue;
+    }
+    const Vector6& axis = axis_[static_cast<std::size_t>(a)];
+    const Eigen::Vector3d turned = (axis.tail<3>() + axis.head<3>().cross(p_W)).cross(force);  // J_a x force
+    for (int b = a; b >= 0; b = carrier(b)) {
+      const int column = bodies_[static_cast<std::size_t>(b)].coordinate;
+      if (column < 0) {
+        continue;
+      }
+      const double slope = axis_[static_cast<std::size_t>(b)].head<3>().dot(turned);
+      K(row, column) += slope;
+      if (row != column) {
+        K(column, row) += slope;
+      }
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "simulator/model/arc.h"
+
 namespace plumbline::model {
 
 /// A body of the tree and the joint that carries it.
@@ -14,6 +16,7 @@ struct TreeBody {
   bool slides = false;      ///< prismatic; else revolute
   Eigen::Vector3d axis;     ///< unit vector of the joint, in the body's frame
   Eigen::Vector3d hinge;    ///< a point on the axis, in the body's frame, m
+  Arc arc;                  ///< of a slide that is bent, in the body's frame
   Eigen::Isometry3d X_PB;   ///< pose in the parent's (or the world's) frame with the joint at zero
   double mass = 0.0;        ///< kg
   Eigen::Vector3d com;      ///< in the body's frame, m
@@ -45,6 +48,15 @@ class TreeDynamics {
   /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.
   void add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                  Eigen::VectorXd& Q) const;
+  /// d(J' force)/dq with the force held: K_ab += force . (w_b x J_a), b at or before a on the way from the
+  /// world (what a joint turns takes the axes behind it along), and K_ba the same.
+  void add_force_slope(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
+                       Eigen::MatrixXd& K) const;
+  /// d(station_velocity)/dq with the rates held, 3 x coordinates: of joint b, whose parent has the angular
+  /// velocity W and carries the point along with u, w_b x (v - u) + W x J_b.
+  void station_velocity_slope(int body, const Eigen::Vector3d& p_W, Eigen::Matrix3Xd& slope) const;
+  /// d(angle of the body's y axis, seen from above)/dq, 1 x coordinates.
+  Eigen::RowVectorXd yaw_slope(int body) const;
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // [angular; linear at the world's origin]

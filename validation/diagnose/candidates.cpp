@@ -6,6 +6,7 @@
 
 #include "contact/ground_change.h"
 #include "simulator/effects/parameters.h"
+#include "simulator/model/planar_base.h"
 
 namespace plumbline::validation {
 namespace {
@@ -203,6 +204,11 @@ double resting_depth(const model::Model& model, const std::string& foot) {
   return depth;
 }
 
+/// The joint whose position is the height of a robot that has a base.
+std::string base_height(const model::Skeleton& skeleton) {
+  return skeleton.joints[static_cast<std::size_t>(model::planar_base(skeleton)->upward)].name;
+}
+
 /// A link of its own: it moves, and has a mass. What has none carries joints only.
 bool is_moving_mass(const model::Skeleton& skeleton, const std::string& name) {
   for (const model::Joint& joint : skeleton.joints) {
@@ -273,6 +279,8 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
         candidate.scales.position = 0.1;
       } else if (place == Place::foot) {
         candidate.scales.position = resting_depth(model, at);
+      } else if (place == Place::base) {
+        candidate.scales = motions.at(Place::coordinate, base_height(model.skeleton));
       }
       candidates.push_back(std::move(candidate));
     }
