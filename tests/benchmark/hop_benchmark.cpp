@@ -2,7 +2,7 @@
 // core. The torques are those of a controller's run, recorded and held; the controller itself is not in the
 // loop.
 //
-// error, worst: tests/benchmark/recorded_hop.h. Both are against implicit_rk at the tightest tolerance;
+// error, worst: tests/benchmark/replay.h. Both are against implicit_rk at the tightest tolerance;
 // rosenbrock at a tight one, shown below it, says how far to trust it. x real: simulated time over processor
 // time (aim: 10).
 #include <cstdio>
@@ -72,7 +72,7 @@ class Table {
     std::fflush(stdout);
   }
 
-  RecordedHop hop_;
+  Replay hop_;
   model::Plant plant_;
   Course reference_;
 };

@@ -1,12 +1,9 @@
 #include "tests/benchmark/mujoco_leg.h"
 
-#include <mujoco/mujoco.h>
-
-#include <cstring>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
+#include "tests/benchmark/mujoco_model.h"
 #include "tests/oracles/leg_bench_lagrangian.h"
 
 namespace plumbline::benchmarks {
@@ -43,29 +40,16 @@ std::string model_xml() {
 }  // namespace
 
 struct MujocoLeg::Impl {
-  mjModel* model = nullptr;
-  mjData* data = nullptr;
+  MujocoModel model;
+  MujocoData data;
 };
 
 MujocoLeg::MujocoLeg() : impl_(std::make_unique<Impl>()) {
-  const std::string xml = model_xml();
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "leg.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[mj_findFileVFS(files.get(), "leg.xml")], xml.data(), xml.size());
-  char reason[1000] = "";
-  impl_->model = mj_loadXML("leg.xml", files.get(), reason, sizeof(reason));
-  mj_deleteVFS(files.get());
-  if (impl_->model == nullptr) {
-    throw std::runtime_error(std::string("MuJoCo: ") + reason);
-  }
-  impl_->data = mj_makeData(impl_->model);
+  impl_->model = compile(model_xml());
+  impl_->data.reset(mj_makeData(impl_->model.get()));
 }
 
-MujocoLeg::~MujocoLeg() {
-  mj_deleteData(impl_->data);
-  mj_deleteModel(impl_->model);
-}
+MujocoLeg::~MujocoLeg() = default;
 
 Eigen::Vector2d MujocoLeg::accelerations(const Eigen::Vector2d& q, const Eigen::Vector2d& v,
                                          const Eigen::Vector2d& torques) {
@@ -75,7 +59,7 @@ Eigen::Vector2d MujocoLeg::accelerations(const Eigen::Vector2d& q, const Eigen::
     data.qvel[i] = v[i];
     data.qfrc_applied[i] = torques[i];
   }
-  mj_forward(impl_->model, &data);
+  mj_forward(impl_->model.get(), &data);
   return {data.qacc[0], data.qacc[1]};
 }
 

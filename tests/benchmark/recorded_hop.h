@@ -1,48 +1,15 @@
-// One hop of MABEL with the torques of a controller's run, to be simulated again by any method.
+// One hop of MABEL with the torques of a controller's run.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 
-#include "simulator/integrate/integrator.h"
-#include "simulator/model/model.h"
-#include "simulator/model/plant.h"
+#include "tests/benchmark/replay.h"
 
 namespace plumbline::benchmarks {
 
-/// From the flight before a landing to the flight before the next: start state and held torques. The
-/// controller is not in the loop, because it quantises: two methods that differ by 1e-9 would get other
-/// torques.
-struct RecordedHop {
-  model::Model model;
-  Eigen::VectorXd start;
-  Eigen::MatrixXd commands;  ///< motors x samples
-  double period = 0.0;       ///< s
-
-  double seconds() const { return period * static_cast<double>(commands.cols()); }
-};
-
-/// The second hop of a run of robots/mabel/`model_file` under its controller.
-RecordedHop record_hop(const std::string& model_file);
-
-/// The state at the end of every sample.
-struct Course {
-  Eigen::MatrixXd states;  ///< states x samples
-  integrate::Summary summary;
-  double seconds = 0.0;  ///< of processor time
-};
-
-Course simulate(const RecordedHop& hop, model::Plant& plant, const integrate::Options& options);
-
-/// Of the positions (about their mean over the hop) and of the velocities, the larger: the root of the sum
-/// over all samples of d' M d, relative to the same of the reference; d: difference, M: the reference's mass
-/// matrix. For velocities that is the root of the error's kinetic energy; no choice of coordinates or units
-/// enters.
-double trajectory_error(const Course& course, const Course& reference, model::Plant& plant);
-
-/// Largest over the independent positions and velocities of the root mean square of the difference over the
-/// hop, relative to that of the reference about its mean. One that hardly moves (a pulley in its stop) counts
-/// as much as the torso.
-double worst_coordinate(const Course& course, const Course& reference, const model::Plant& plant);
+/// The second hop of a run of robots/mabel/`model_file` under its controller, from the flight before a
+/// landing to the flight before the next: start state and held torques. The controller is not in the loop,
+/// because it quantises: two methods that differ by 1e-9 would get other torques.
+Replay record_hop(const std::string& model_file);
 
 }  // namespace plumbline::benchmarks

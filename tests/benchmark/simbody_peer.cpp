@@ -52,8 +52,8 @@ std::string to_string(Peer peer) {
   return peer == Peer::runge_kutta_merson ? "Simbody RKM" : "Simbody CPodes";
 }
 
-Course simulate(const RecordedHop& hop, model::Plant& plant, Peer peer, double accuracy,
-                const Course& reference, double patience) {
+Course simulate(const Replay& hop, model::Plant& plant, Peer peer, double accuracy, const Course& reference,
+                double patience) {
   SimTK::MultibodySystem system;
   const SimTK::SimbodyMatterSubsystem matter(system);
   SimTK::GeneralForceSubsystem forces(system);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/benchmark/recorded_hop.h"
+#include "tests/benchmark/replay.h"
 
 namespace plumbline::benchmarks {
 
@@ -19,7 +19,7 @@ std::string to_string(Peer peer);
 /// in `reference`, which our methods do not know. At every sample the command jumps, the integrator is told
 /// so, and CPodes begins anew. Throws std::exception when the integrator gives up or takes longer than
 /// `patience` seconds.
-Course simulate(const RecordedHop& hop, model::Plant& plant, Peer peer, double accuracy,
-                const Course& reference, double patience);
+Course simulate(const Replay& hop, model::Plant& plant, Peer peer, double accuracy, const Course& reference,
+                double patience);
 
 }  // namespace plumbline::benchmarks
