@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "validation/diagnose/first_of_each.h"
@@ -60,6 +61,37 @@ double gain(const Remaining& left, const std::vector<Eigen::Index>& chosen) {
   return g.dot(H.ldlt().solve(g));
 }
 
+/// A window that says nothing for or against any step: its error stays what it is.
+Reduced silent(const Estimate& stage, std::size_t window, Eigen::Index parameters) {
+  Reduced one;
+  one.square = stage.square[window];
+  one.raw_sse = one.sse = one.square.sum();
+  one.H = Eigen::MatrixXd::Zero(parameters, parameters);
+  one.g = Eigen::VectorXd::Zero(parameters);
+  one.x_shift = Eigen::VectorXd::Zero(stage.x0[window].size());
+  one.x_slope = Eigen::MatrixXd::Zero(one.x_shift.size(), parameters);
+  return one;
+}
+
+/// Linearised where the stage is. A wrong model may follow a window so badly that the smallest difference
+/// decides whether it can be integrated: what cannot be is silent.
+std::vector<Reduced> linearise(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                               const Eigen::VectorXd& theta, const Estimate& stage,
+                               const Eigen::VectorXd& units) {
+  std::vector<Reduced> all(pool.data().windows.size());
+  parallel_for(static_cast<int>(all.size()), pool.data().threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    try {
+      all[i] = reduce(pool, {w}, parameters, theta, stage.x0, units).front();
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      all[i] = silent(stage, i, units.size());
+    }
+  });
+  return all;
+}
+
 /// The same two candidates, in whichever order and from whatever starts.
 bool is_same_pair(const PairHypothesis& one, const PairHypothesis& other) {
   const auto first = std::minmax(one.first.candidate, one.second.candidate);
@@ -93,7 +125,7 @@ Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,
   const Eigen::VectorXd units = search_units(parameters, theta);
   const std::vector<int> windows = data.all_windows();
   PredictorPool pool(model, data);
-  reduced_ = reduce(pool, windows, parameters, theta, stage.estimate.x0, units);
+  reduced_ = linearise(pool, parameters, theta, stage.estimate, units);
   train_ = sum_of(reduced_, windows, data, Role::train);
   held_out_ = sum_of(reduced_, windows, data, Role::held_out);
   bounds_ = room(parameters, theta, units);

@@ -54,8 +54,14 @@ bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
   if (!has_corners(pool, as_it_is, {})) {
     return false;
   }
-  const Point at = grown_states(pool, as_it_is, {});
-  return !is_lost(data, InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at));
+  try {
+    const Point at = grown_states(pool, as_it_is, {});
+    return !is_lost(data, InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at));
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 /// Does the next step promise the floor, above which it is?
