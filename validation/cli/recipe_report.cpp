@@ -6,6 +6,7 @@
 
 #include "validation/cli/files.h"
 #include "validation/cli/output.h"
+#include "validation/recipes/untold.h"
 
 namespace plumbline::cli {
 namespace {
@@ -97,6 +98,17 @@ void print_findings(const Recipe& recipe, const Step& step, const StepResult& re
   }
 }
 
+std::string untold_text(const validation::Untold& untold) {
+  if (!std::isfinite(untold.width)) {
+    return "  not told by these data: " + untold.unknown;
+  }
+  const validation::StrongCorrelation& pair = untold.strongest;
+  const std::string partner = pair.one == untold.unknown ? pair.other : pair.one;
+  return fmt::format("  not told by these data: {} (its interval is {:.0f} % of its value wide{})",
+                     untold.unknown, 100.0 * untold.width,
+                     partner.empty() ? "" : fmt::format("; trades with {}", partner));
+}
+
 void print_step(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
                 double confidence) {
   fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source,
@@ -113,6 +125,11 @@ void print_step(const Recipe& recipe, const Step& step, const StepResult& result
       parts += fmt::format("{}{:+.2f} {}", parts.empty() ? "" : " ", part, name);
     }
     fmt::print("  hardly told (known to within {:.2g} times the values): {}\n", weak.deviation, parts);
+  }
+  if (step.method != "information") {
+    for (const validation::Untold& one : untold(recipe, result)) {
+      fmt::print("{}\n", untold_text(one));
+    }
   }
   if (result.after > 0.0) {
     fmt::print("  error in units of the floor: {:.3f} before, {:.3f} after; {} {}; {:.1f} s{}\n",
@@ -189,6 +206,7 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
                       {"seconds", result.seconds},
                       {"findings", nlohmann::json::array()},
                       {"correlations", nlohmann::json::array()},
+                      {"untold", nlohmann::json::array()},
                       {"weak", nlohmann::json::array()}};
   for (const Finding& finding : result.findings) {
     // Nothing is recovered where only information is asked for.
@@ -196,6 +214,11 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
   }
   for (const validation::StrongCorrelation& one : result.correlations) {
     json["correlations"].push_back({{"one", one.one}, {"other", one.other}, {"correlation", one.value}});
+  }
+  if (step.method != "information") {
+    for (const validation::Untold& one : untold(recipe, result)) {
+      json["untold"].push_back({{"unknown", one.unknown}, {"width", json_number(one.width)}});
+    }
   }
   for (const validation::WeakDirection& weak : result.weak) {
     nlohmann::json parts = nlohmann::json::array();

@@ -304,6 +304,14 @@ Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>
   return gauss_newton(pool, {}, Eigen::VectorXd(), start_x0, {8, 1e-4});
 }
 
+Estimate rough_states(PredictorPool& pool) {
+  if (!has_corners(pool, {}, {})) {
+    return estimate_states(pool);
+  }
+  constexpr int kIterations = 4;
+  return gauss_newton(pool, {}, {}, states_by_parts(pool, {}, {}).x0, {kIterations, kRoughly.much});
+}
+
 Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
           const Eigen::VectorXd& units) {
   Room b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};

@@ -24,6 +24,10 @@ Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& par
 Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                    const Eigen::VectorXd& theta, Grown* how_far = nullptr);
 
+/// estimate_states with less pains, for a model whose values are still to be searched: through contact, stops
+/// and play it need not explain a window to its end.
+Estimate rough_states(PredictorPool& pool);
+
 /// Has the model stops or play?
 bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                  const Eigen::VectorXd& theta);

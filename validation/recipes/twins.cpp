@@ -7,6 +7,7 @@
 
 #include "validation/hopping/hop_statistics.h"
 #include "validation/hopping/hopping_file.h"
+#include "validation/hopping/recorded_trial.h"
 #include "validation/recipes/linked.h"
 #include "validation/twin/twin.h"
 
@@ -25,33 +26,25 @@ double drawn(std::mt19937_64& random) {
   return number;
 }
 
+/// Rows `first` to `first + count` of a table.
+Table stretch_of(const Table& trace, Eigen::Index first, Eigen::Index count) {
+  Table stretch = trace;
+  for (Column& column : stretch.columns) {
+    column.values = Eigen::VectorXd(column.values.segment(first, count));
+  }
+  return stretch;
+}
+
 /// The stretch of a hopping run as a trial: what sensors read, what was commanded.
 Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& hops, double period,
-               std::mt19937_64& random) {
+               std::uint64_t seed) {
   const auto first = static_cast<Eigen::Index>(std::lround(hops.from / period));
   const auto count = static_cast<Eigen::Index>(std::lround(hops.to / period)) - first;
   if (first + count > trace.rows()) {
     throw std::runtime_error("the twin fell before the hops of the recipe were over");
   }
-  Trial trial;
-  trial.title = trial.name = "hops";
-  trial.model_file = robot.file;
-  trial.period = period;
-  trial.time = trace.find("t")->values.segment(first, count);
-  for (const model::Sensor& sensor : robot.sensors) {
-    Measured channel;
-    channel.sensor = sensor.name;
-    channel.values = trace.find("q_" + sensor.name)->values.segment(first, count);
-    for (double& value : channel.values) {
-      value = sensor_reading(sensor, value, random);
-    }
-    trial.measured.push_back(std::move(channel));
-  }
-  for (const model::Motor& motor : robot.motors) {
-    const Column& column = *trace.find("u_" + motor.name);
-    trial.commands.push_back(
-        {motor.name, column.name, motor.command_unit, column.values.segment(first, count)});
-  }
+  Trial trial = recorded_trial(robot, stretch_of(trace, first, count), seed);
+  trial.name = "hops";
   return trial;
 }
 
@@ -66,7 +59,7 @@ std::vector<Trial> hop_trials(const model::Model& robot, const HopsMethod& hops,
   std::mt19937_64 random(seed);
   std::vector<Trial> trials;
   for (const HopRun& run : hop_from(robot, config, draw_starts(hops.starts, seed), options)) {
-    trials.push_back(trial_of(robot, run.trace, hops, config.period, random));
+    trials.push_back(trial_of(robot, run.trace, hops, config.period, random()));
     trials.back().name += std::to_string(trials.size());
   }
   return trials;

@@ -5,6 +5,7 @@
 #include "validation/diagnose/candidates.h"
 #include "validation/fit/fit.h"
 #include "validation/predict/deviations.h"
+#include "validation/predict/states_by_parts.h"
 #include "validation/recipes/information.h"
 #include "validation/recipes/linked.h"
 #include "validation/recipes/methods.h"
@@ -12,9 +13,10 @@
 namespace plumbline::validation {
 namespace {
 
-constexpr double kWeak = 0.5;      // as a share of the values: worse is not known
-constexpr double kStrong = 0.95;   // correlation worth a line
-constexpr double kSettled = 1e-8;  // relative change of the cost
+constexpr double kWeak = 0.5;                    // as a share of the values: worse is not known
+constexpr double kStrong = 0.95;                 // correlation worth a line
+constexpr double kSettled = 1e-8;                // relative change of the cost
+constexpr double kSettledThroughContact = 1e-6;  // less than the integrator's own error there would be noise
 
 Finding finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
   Finding finding;
@@ -72,6 +74,11 @@ void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
   }
 }
 
+double settled(const Data& data) {
+  const auto has_contact = [](const Trial& trial) { return !trial.switches.empty(); };
+  return std::any_of(data.trials.begin(), data.trials.end(), has_contact) ? kSettledThroughContact : kSettled;
+}
+
 struct Fitted {
   Estimate given, estimate;
   FitNumbers numbers;
@@ -81,11 +88,11 @@ struct Fitted {
 Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters, bool fit,
                const MethodOptions& options) {
   Fitted fitted;
-  fitted.given = estimate_states(pool);
+  fitted.given = fit ? rough_states(pool) : estimate_states(pool);
   fitted.numbers.before = values_of(pool.model(), parameters);
   if (fit) {
     fitted.estimate = gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0,
-                                   {options.iterations, kSettled});
+                                   {options.iterations, settled(pool.data())});
   } else {
     fitted.estimate = fitted.given;
     fitted.estimate.theta = fitted.numbers.before;
