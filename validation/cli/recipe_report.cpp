@@ -104,7 +104,7 @@ std::string untold_text(const validation::Untold& untold) {
   }
   const validation::StrongCorrelation& pair = untold.strongest;
   const std::string partner = pair.one == untold.unknown ? pair.other : pair.one;
-  return fmt::format("  not told by these data: {} (its interval is {:.0f} % of its value wide{})",
+  return fmt::format("  not told by these data: {} (its interval is {:.0f} % of its size wide{})",
                      untold.unknown, 100.0 * untold.width,
                      partner.empty() ? "" : fmt::format("; trades with {}", partner));
 }

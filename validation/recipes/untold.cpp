@@ -23,7 +23,7 @@ std::vector<Untold> untold(const Recipe& recipe, const StepResult& result) {
   std::vector<Untold> all;
   for (const Finding& finding : result.findings) {
     const Unknown& unknown = recipe.unknown(finding.unknown);
-    const double size = std::max(std::abs(finding.value), unknown.deviation);
+    const double size = std::max({std::abs(finding.value), std::abs(unknown.value), unknown.deviation});
     const double width =
         finding.seen ? (finding.upper - finding.lower) / size : std::numeric_limits<double>::infinity();
     if (!unknown.target && !(width <= kWide)) {
