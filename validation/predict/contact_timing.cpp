@@ -115,7 +115,8 @@ void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>&
     const double scale = -1.0 / (crossing.rate * timing_floor(trial_));
     const Eigen::Index row = window.count * channels() + static_cast<Eigen::Index>(e);
     out.Jx.row(row) = scale * slope.head(nx);
-    out.Jp.row(row) = scale * (slope.tail(slope.size() - nx) + plant_.depth_slope(foot, states_.col(node).data(), ids));
+    out.Jp.row(row) =
+        scale * (slope.tail(slope.size() - nx) + plant_.depth_slope(foot, states_.col(node).data(), ids));
   }
 }
 

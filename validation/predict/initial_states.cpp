@@ -112,6 +112,24 @@ std::vector<Reduced> InitialStates::settle_all(const Settling& settling, Point& 
   return reduced;
 }
 
+void InitialStates::settle_anew(const std::vector<int>& windows, const Settling& settling, Point& point,
+                                std::vector<Reduced>& reduced) {
+  Point anew = point;
+  for (const int w : windows) {
+    anew.x0[static_cast<std::size_t>(w)].resize(0);
+  }
+  begin(anew);
+  std::vector<Reduced> other = reduce_some(windows, anew);
+  settle(windows, settling, anew, other);
+  for (const int w : windows) {
+    const auto i = static_cast<std::size_t>(w);
+    if (other[i].raw_sse < reduced[i].raw_sse) {
+      point.x0[i] = anew.x0[i];
+      reduced[i] = std::move(other[i]);
+    }
+  }
+}
+
 void InitialStates::shorten(const Point& from, const std::vector<Reduced>& before, Point& to,
                             std::vector<Reduced>& after) {
   constexpr int kHalvings = 6;

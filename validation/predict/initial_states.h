@@ -49,6 +49,9 @@ class InitialStates {
   void settle(std::vector<int> open, const Settling& settling, Point& point, std::vector<Reduced>& reduced);
   /// All windows from where they are, or from the measurements; the equations where they end.
   std::vector<Reduced> settle_all(const Settling& settling, Point& point);
+  /// Some windows once more from the measurements, where that ends better.
+  void settle_anew(const std::vector<int>& windows, const Settling& settling, Point& point,
+                   std::vector<Reduced>& reduced);
   /// Halves the steps of initial states that made their windows worse, as a touchdown missed or gained does:
   /// the other windows' steps are none of their business. Where the parameters move too, a window may lose a
   /// little.

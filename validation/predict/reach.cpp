@@ -38,8 +38,13 @@ bool can_be_followed(const model::Model& model, const Data& part, Point& at) {
   const std::vector<FreeParameter> as_it_is;
   PredictorPool pool(model, part);
   InitialStates states(pool, as_it_is, {});
+  const bool from_shorter = !at.x0.empty();
   try {
-    return !is_lost(part, states.settle_all(kRoughly, at));
+    std::vector<Reduced> reduced = states.settle_all(kRoughly, at);
+    if (from_shorter && is_lost(part, reduced)) {
+      states.settle_anew(above_floor(part, reduced), kRoughly, at, reduced);
+    }
+    return !is_lost(part, reduced);
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {

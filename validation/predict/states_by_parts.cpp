@@ -24,25 +24,6 @@ void keep(const Data& part, const std::vector<double>& shares, const Point& at,
   }
 }
 
-/// The windows that are above the floor, also from the measurements at once.
-void try_directly(InitialStates& states, const std::vector<int>& open, Point& at,
-                  std::vector<Reduced>& reduced) {
-  Point direct = at;
-  for (const int w : open) {
-    direct.x0[static_cast<std::size_t>(w)].resize(0);
-  }
-  states.begin(direct);
-  std::vector<Reduced> other = states.reduce_some(open, direct);
-  states.settle(open, kRoughly, direct, other);
-  for (const int w : open) {
-    const auto i = static_cast<std::size_t>(w);
-    if (other[i].raw_sse < reduced[i].raw_sse) {
-      at.x0[i] = direct.x0[i];
-      reduced[i] = std::move(other[i]);
-    }
-  }
-}
-
 /// Settles the open windows on the given shares of their lengths, from `at`, and keeps those that come to the
 /// floor.
 void try_on(const PredictorPool& pool, const std::vector<FreeParameter>& parameters,
@@ -126,7 +107,7 @@ ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramete
   }
   std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, found.at);
   InitialStates states(pool, parameters, {});
-  try_directly(states, above_floor(pool.data(), reduced), found.at, reduced);
+  states.settle_anew(above_floor(pool.data(), reduced), kRoughly, found.at, reduced);
   found.open = above_floor(pool.data(), reduced);
   return found;
 }
