@@ -42,27 +42,66 @@ std::vector<int> base_and_carriers(const model::Skeleton& skeleton) {
   return chain;
 }
 
+/// Joints or a foot behind it.
+bool carries(const model::Model& model, int body) {
+  const auto& joints = model.skeleton.joints;
+  return std::any_of(joints.begin(), joints.end(), [&](const model::Joint& j) { return j.parent == body; }) ||
+         std::any_of(model.feet.begin(), model.feet.end(),
+                     [&](const model::Foot& f) { return f.body == body; });
+}
+
+/// Does it end where nothing but levers hang that end in the air?
+bool is_to_a_lever(const model::Model& model, const Stick& stick) {
+  bool levers = false;
+  for (const model::Joint& joint : model.skeleton.joints) {
+    if (joint.parent == stick.body && joint.X_PJ.translation() == stick.to) {
+      if (carries(model, joint.child)) {
+        return false;
+      }
+      levers = true;
+    }
+  }
+  return levers;
+}
+
+/// Several sticks to levers as the one in their middle.
+void join_levers(const model::Model& model, int body, std::vector<Stick>& sticks) {
+  Stick middle{body, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  double count = 0.0;
+  const auto joined = [&](const Stick& stick) {
+    const bool joins = stick.body == body && is_to_a_lever(model, stick);
+    if (joins) {
+      middle.from = stick.from;
+      middle.to += stick.to;
+      count += 1.0;
+    }
+    return joins;
+  };
+  sticks.erase(std::remove_if(sticks.begin(), sticks.end(), joined), sticks.end());
+  if (count > 0.0) {
+    middle.to /= count;
+    sticks.push_back(middle);
+  }
+}
+
 /// The heaviest body and what leads from it to further joints or to feet: no carriers, no levers that end in
 /// the air. All but the carriers where nothing would be left.
 std::vector<Stick> limbs(const model::Model& model, const std::vector<int>& chain) {
-  const auto carries = [&](int body) {
-    const auto& joints = model.skeleton.joints;
-    const auto& feet = model.feet;
-    return std::any_of(joints.begin(), joints.end(),
-                       [&](const model::Joint& j) { return j.parent == body; }) ||
-           std::any_of(feet.begin(), feet.end(), [&](const model::Foot& f) { return f.body == body; });
-  };
   std::vector<Stick> all;
   std::vector<Stick> leading;
   for (const Stick& stick : sticks_of(model)) {
     if (std::find(chain.begin() + 1, chain.end(), stick.body) == chain.end()) {
       all.push_back(stick);
-      if (stick.body == chain.front() || carries(stick.body)) {
+      if (stick.body == chain.front() || carries(model, stick.body)) {
         leading.push_back(stick);
       }
     }
   }
-  return leading.size() > 1 ? leading : all;
+  if (leading.size() <= 1) {
+    return all;
+  }
+  join_levers(model, chain.front(), leading);
+  return leading;
 }
 
 double heading(const Eigen::Isometry3d& X) {
