@@ -289,6 +289,9 @@ void finish(const Data& data, const Data& tried, const DiagnoseOptions& options,
   if (diagnosis.ladder.front().part >= part) {  // else they have been tried without on shorter parts
     drop_superfluous(all, options, progress, diagnosis);
   }
+  if (!diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all)) {
+    settle_values(all, progress, diagnosis);
+  }
   take_open_values(all, diagnosis);
   set_values(diagnosis.final_stage, all, diagnosis.accepted);
   conclude(all, options, diagnosis);

@@ -83,6 +83,24 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
   }
 }
 
+void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+  // Of the cost at the floor, which is about the number of residuals: a step that promises less moves no
+  // value by a tenth of its deviation.
+  constexpr double kPromise = 0.01;
+  constexpr int kIterations = 12;
+  double residuals = 0.0;
+  for (const Window& window : all.windows) {
+    const Trial& trial = all.trials[static_cast<std::size_t>(window.trial)];
+    residuals += static_cast<double>(window.count) * static_cast<double>(trial.measured.size());
+  }
+  progress("the last values", 0.95);
+  Stage& stage = diagnosis.final_stage;
+  PredictorPool pool(stage.model, all);
+  stage.estimate = gauss_newton(pool, stage.parameters, stage.estimate.theta, stage.estimate.x0,
+                                {kIterations, kPromise / residuals});
+  diagnosis.ladder.back().stage = stage;
+}
+
 void take_open_values(const Data& all, Diagnosis& diagnosis) {
   Stage& stage = diagnosis.final_stage;
   const std::size_t first = stage.model.effects.size() - diagnosis.accepted.size();

@@ -13,6 +13,10 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
                       Diagnosis& diagnosis);
 
+/// The last values of an answer, to a tenth of a standard deviation and better: searches among candidates end
+/// as soon as they can be told apart.
+void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis);
+
 /// Where a named law is nothing at the train trials' best values, those are taken that serve all trials.
 void take_open_values(const Data& all, Diagnosis& diagnosis);
 

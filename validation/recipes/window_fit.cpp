@@ -84,6 +84,18 @@ struct Fitted {
   FitNumbers numbers;
 };
 
+/// Where the search of the values has lost a window through contact, stops or play it has done so with values
+/// that were still wrong: all begin anew with those that it has found, and the fit goes on from there.
+Estimate with_lost_windows(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                           Estimate estimate, const EstimateOptions& options) {
+  if (estimate.scores.train < kFits || !has_corners(pool, parameters, estimate.theta)) {
+    return estimate;
+  }
+  const Point anew = grown_states(pool, parameters, estimate.theta);
+  Estimate again = gauss_newton(pool, parameters, estimate.theta, anew.x0, options);
+  return again.cost < estimate.cost ? again : estimate;
+}
+
 /// Without `fit` only the windows' initial states are found, and the parameters stay where they are.
 Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters, bool fit,
                const MethodOptions& options) {
@@ -91,8 +103,10 @@ Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters
   fitted.given = fit ? rough_states(pool) : estimate_states(pool);
   fitted.numbers.before = values_of(pool.model(), parameters);
   if (fit) {
-    fitted.estimate = gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0,
-                                   {options.iterations, settled(pool.data())});
+    const EstimateOptions search{options.iterations, settled(pool.data())};
+    fitted.estimate = with_lost_windows(
+        pool, parameters, gauss_newton(pool, parameters, fitted.numbers.before, fitted.given.x0, search),
+        search);
   } else {
     fitted.estimate = fitted.given;
     fitted.estimate.theta = fitted.numbers.before;
