@@ -30,6 +30,7 @@ const std::vector<Row>& mabel_rows() {
       {"encoder_scale", "mLS_right", "scale=1+2e-4|7e-4|2e-3"},
       {"coulomb", "hip_x", "level=0.3|1|3,smoothing_speed=0.01"},
       {"gravity_tilt", "world", "pitch=5e-4|1.5e-3|5e-3"},
+      {"boom", "base", "curvature=0.015|0.03|0.1,level=1"},
       {"ground_stiffness_error", "left", "scale=1+0.1|0.3|1"},
       {"ground_friction_error", "right", "scale=1-0.05|0.15|0.4"},
       {"ground_height_error", "left", "height=3e-4|1e-3|3e-3"},
