@@ -68,8 +68,8 @@ TEST_F(Json, CheckOfAModel) {
   EXPECT_THAT(keys(sensor), UnorderedElementsAre("name", "measures", "unit", "resolution", "noise", "floor"));
   constexpr double turn = 6.283185307179586;
   EXPECT_NEAR(sensor["floor"], turn / 4096 / std::sqrt(12.0), 1e-12);
-  EXPECT_THAT(keys(model["places"]),
-              UnorderedElementsAre("coordinate", "motor", "ratio", "body", "sensor", "world", "foot"));
+  EXPECT_THAT(keys(model["places"]), UnorderedElementsAre("coordinate", "motor", "ratio", "body", "sensor",
+                                                          "world", "foot", "base"));
   EXPECT_EQ(model["places"]["ratio"], json::array({"shoulder"}));
 }
 
