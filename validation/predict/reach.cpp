@@ -69,9 +69,11 @@ bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
   }
 }
 
-/// Does the next step promise the floor, above which it is?
+/// Does the next step promise the floor, or what is close to it, above which it is? A straight line's promise
+/// in a window as bent as this is not exact.
 bool is_promising(const Data& data, int window, const Reduced& one) {
-  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse);
+  constexpr double kPromised = 1.5;
+  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse, kPromised);
 }
 
 /// Of each window the share that can be searched, and where it begins. None for a model without corners.
