@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/integrate/energy_account.h"
 #include "simulator/integrate/plant_ode.h"
 #include "simulator/integrate/plate_means.h"
 
 namespace plumbline::integrate {
 namespace {
-
-/// Stored energy's course, to say what "exchanged" means.
-struct EnergyAccount {
-  double first = 0.0, lowest = 0.0, highest = 0.0, last = 0.0;
-  void start(double stored) { first = lowest = highest = last = stored; }
-  void add(double stored) {
-    lowest = std::min(lowest, stored);
-    highest = std::max(highest, stored);
-    last = stored;
-  }
-};
 
 /// Of a stretch over which a plate's force is averaged.
 int pieces_of(double time) {
@@ -91,8 +81,8 @@ RunResult run(model::Plant& plant, const Eigen::VectorXd& x0, HeldCommands comma
   if (options.energy) {
     const double work = x[nx];
     const double dissipated = x[nx + 1];
-    result.energy_error = account.last - account.first - work + dissipated;
-    result.energy_exchanged = std::abs(work) + std::abs(dissipated) + account.highest - account.lowest;
+    result.energy_error = account.error(work, dissipated);
+    result.energy_exchanged = account.exchanged(work, dissipated);
   }
   result.events = integrator.events();
   result.summary = integrator.summary();

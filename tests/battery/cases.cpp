@@ -29,12 +29,8 @@ void add_hidden(const std::string& robot, const std::vector<Row>& rows,
                 const std::vector<Strength>& strengths, std::vector<Case>& cases) {
   for (const Row& row : rows) {
     for (const Strength strength : strengths) {
-      cases.push_back({robot + "/" + row.effect + "@" + row.at + "/" + to_string(strength),
-                       robot,
-                       Kind::hidden,
-                       strength,
-                       {row},
-                       {}});
+      cases.push_back(
+          {robot + "/" + name_of(row) + "/" + to_string(strength), robot, Kind::hidden, strength, {row}, {}});
     }
   }
 }
@@ -46,8 +42,8 @@ void add_none(const std::string& robot, int count, std::vector<Case>& cases) {
 }
 
 const Row& find_row(const std::vector<Row>& rows, const std::string& name) {
-  const auto row = std::find_if(rows.begin(), rows.end(),
-                                [&](const Row& one) { return one.effect + "@" + one.at == name; });
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& one) { return name_of(one) == name; });
   if (row == rows.end()) {
     throw std::logic_error("no row for " + name);
   }
@@ -100,6 +96,8 @@ bool is_left_out(const model::Model& model, const effects::Law& law, Place place
 }
 
 }  // namespace
+
+std::string name_of(const Row& row) { return row.effect + "@" + row.at; }
 
 std::string to_string(Kind kind) {
   switch (kind) {

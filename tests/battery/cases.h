@@ -35,6 +35,7 @@ struct Robot {
 struct Row {
   std::string effect, at, parameters;
 };
+std::string name_of(const Row& row);  ///< "coulomb@mLA"
 
 struct Case {
   std::string name;   ///< "leg_bench/coulomb@mLA/weak"

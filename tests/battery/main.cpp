@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <numeric>
+#include <optional>
 #include <random>
+#include <stdexcept>
 
 #include "tests/battery/report.h"
+#include "tests/battery/results_file.h"
 
 namespace plumbline::battery {
 namespace {
@@ -20,7 +24,8 @@ struct Inputs {
   std::vector<std::string> rigs{"all"};
   bool list = false;
   bool explain = false;
-  std::string json, csv;
+  bool score = false;
+  std::string results, json, csv;
 };
 
 /// Cases of the rigs whose name contains one of the words; all when there are none.
@@ -69,6 +74,38 @@ void show_bare(const Result& result) {
              result.error.empty() ? result.with : result.error);
 }
 
+void show(const Result& result, const Inputs& inputs) {
+  inputs.run.bare_only ? show_bare(result) : fmt::print("{}\n", table_line(result));
+  if (inputs.explain) {
+    fmt::print("{}", explanation(result));
+  }
+  std::fflush(stdout);
+}
+
+/// Those in the results' file are not run again; with --score, no others are looked at.
+std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inputs) {
+  std::optional<ResultsFile> file;
+  if (!inputs.results.empty()) {
+    if (inputs.score && !std::filesystem::exists(inputs.results)) {
+      throw std::runtime_error(inputs.results + ": no such file");
+    }
+    file.emplace(inputs.results, inputs.run);
+  }
+  std::vector<Result> results;
+  for (const Case& one : cases) {
+    const Result* known = file ? file->find(one.name) : nullptr;
+    if (known == nullptr && inputs.score) {
+      continue;
+    }
+    results.push_back(known != nullptr ? *known : run_case(one, inputs.run));
+    if (file && known == nullptr) {
+      file->add(results.back());
+    }
+    show(results.back(), inputs);
+  }
+  return results;
+}
+
 int run(const Inputs& inputs) {
   const std::vector<Case> cases = subset(chosen(inputs.rigs, inputs.only), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
@@ -84,15 +121,7 @@ int run(const Inputs& inputs) {
   if (!inputs.run.bare_only) {
     fmt::print("{}\n", table_head());
   }
-  std::vector<Result> results;
-  for (const Case& one : cases) {
-    results.push_back(run_case(one, inputs.run));
-    inputs.run.bare_only ? show_bare(results.back()) : fmt::print("{}\n", table_line(results.back()));
-    if (inputs.explain) {
-      fmt::print("{}", explanation(results.back()));
-    }
-    std::fflush(stdout);
-  }
+  const std::vector<Result> results = results_of(cases, inputs);
   const Targets targets;
   const Summary summary = summarise(results, targets);
   if (!inputs.json.empty()) {
@@ -129,7 +158,13 @@ int main(int argc, char** argv) {
   app.add_option("--subset", inputs.subset, "only K cases, drawn with the seed")->type_name("K");
   app.add_option("--json", inputs.json, "write everything to FILE")->type_name("FILE");
   app.add_option("--csv", inputs.csv, "write one line per case to FILE")->type_name("FILE");
-  app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is");
+  app.add_option("--results", inputs.results,
+                 "keep every result in FILE as it comes, and do not run again what stands there")
+      ->type_name("FILE")
+      ->excludes(
+          app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is"));
+  app.add_flag("--score", inputs.score, "run nothing: the scoreboard of what stands in the results' file")
+      ->needs("--results");
   app.add_flag(
       "--as-stated", inputs.run.as_stated,
       "the robot's own numbers exactly those of the model, not scattered within what is stated of them");

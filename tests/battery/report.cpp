@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "tests/battery/result_json.h"
 
 namespace plumbline::battery {
 namespace {
@@ -24,8 +25,6 @@ std::string outcome(const Result& result) {
   }
   return result.right ? "right" : (counts(result) ? "WRONG" : "unseen");
 }
-
-std::string name_of(const Row& row) { return row.effect + "@" + row.at; }
 
 int inside(const Result& result) {
   return static_cast<int>(std::count_if(result.recovered.begin(), result.recovered.end(),
@@ -48,51 +47,8 @@ void add_hidden(const Result& result, const Targets& targets, Summary& summary) 
 
 const char* mark(bool met) { return met ? "met" : "MISSED"; }
 
-std::vector<std::string> names_of(const Case& one) {
-  std::vector<std::string> names;
-  for (const Row& row : one.rows) {
-    names.push_back(name_of(row));
-  }
-  return names;
-}
-
 nlohmann::json to_json(const Count& count) {
   return {{"of", count.of}, {"met", count.met}, {"share", count.share()}};
-}
-
-nlohmann::json recovered_json(const Result& r) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Recovered& one : r.recovered) {
-    list.push_back({{"parameter", one.name},
-                    {"true", one.truth},
-                    {"value", one.value},
-                    {"standard_deviation", one.deviation},
-                    {"inside", one.is_inside()}});
-  }
-  return list;
-}
-
-nlohmann::json to_json(const Result& r) {
-  return {{"case", r.one.name},
-          {"robot", r.one.robot},
-          {"kind", to_string(r.one.kind)},
-          {"hidden", names_of(r.one)},
-          {"strength", to_string(r.one.strength)},
-          {"with", r.with},
-          {"removed", r.one.removed},
-          {"bare_held_out", r.bare},
-          {"visible", r.visible},
-          {"verdict", r.verdict},
-          {"first_named", r.first},
-          {"others_named", r.others},
-          {"set_size", r.set_size},
-          {"recovered", recovered_json(r)},
-          {"right", r.right},
-          {"in_set", r.in_set},
-          {"held_out_before", r.before},
-          {"held_out_after", r.after},
-          {"seconds", r.seconds},
-          {"error", r.error}};
 }
 
 std::string quoted(const std::string& text) {
@@ -133,6 +89,7 @@ Summary summarise(const std::vector<Result>& results, const Targets& targets) {
   Summary summary;
   for (const Result& result : results) {
     summary.seconds.push_back(result.seconds);
+    summary.processor_seconds.push_back(result.processor_seconds);
     summary.errors += result.error.empty() ? 0 : 1;
     if (!result.error.empty()) {
       continue;
@@ -246,6 +203,7 @@ std::string summary_text(const Summary& s, const Targets& t) {
   }
   text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
                       share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
+  text += fmt::format("  a case takes {:.1f} s of processor, median\n", median(s.processor_seconds));
   text += fmt::format("  of the others {} in a set of more than {} names\n", s.in_larger_set, kMostNames);
   if (s.errors > 0) {
     text += fmt::format("  {} cases could not be run: MISSED\n", s.errors);
@@ -307,6 +265,7 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
                      {"intervals", to_json(s.intervals)},
                      {"median_after", median(s.after)},
                      {"median_seconds", median(s.seconds)},
+                     {"median_processor_seconds", median(s.processor_seconds)},
                      {"errors", s.errors},
                      {"targets_met", targets_met(s, t)}};
   std::ofstream out = opened(file);

@@ -39,7 +39,7 @@ struct Summary {
   Count at_floor;              ///< right ones with an error below Targets::each_after
   Count intervals;
   std::vector<double> after;  ///< held-out errors of right single cases
-  std::vector<double> seconds;
+  std::vector<double> seconds, processor_seconds;
   int errors = 0;
 
   Count overall() const { return {clear.of + weak.of, clear.met + weak.met}; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <exception>
 
 #include "simulator/model/known_effects.h"
@@ -143,12 +144,14 @@ Result run_case(const Case& one, const RunOptions& options) {
   Result result;
   result.one = one;
   const Clock::time_point start = Clock::now();
+  const std::clock_t processor = std::clock();
   try {
     run(options, result);
   } catch (const std::exception& error) {
     result.error = error.what();
   }
   result.seconds = seconds_since(start);
+  result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
   return result;
 }
 

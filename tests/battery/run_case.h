@@ -35,8 +35,9 @@ struct Result {
   /// Held-out error before anything was named: what the hidden effect does beyond what an honest change of
   /// the model's own numbers can do, where these were freed.
   double before = 0.0;
-  double after = 0.0;  ///< held-out error with all that was accepted
-  double seconds = 0.0;
+  double after = 0.0;              ///< held-out error with all that was accepted
+  double seconds = 0.0;            ///< wall time
+  double processor_seconds = 0.0;  ///< of all threads together
   std::vector<Recovered> recovered;
   std::vector<validation::PairRow> pairs;           ///< tried together
   std::vector<validation::RankRow> ranking, leads;  ///< first round's candidates; the last round's rejected

@@ -5,9 +5,12 @@
 #include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
+#include "validation/cli/hop_report.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/hopping/hop_run.h"
+#include "validation/hopping/hopping_file.h"
 #include "validation/inverse_model/inverse_model.h"
 #include "validation/replay/replay.h"
 
@@ -17,9 +20,31 @@ namespace {
 using validation::Replay;
 
 struct Options {
-  std::string trial, experiment, model, data_folder, out, json;
+  std::string trial, experiment, controller, model, data_folder, out, json;
   validation::ReplayOptions replay;
+  validation::HopOptions hop;
 };
+
+/// What is said of every simulation.
+struct Course {
+  const integrate::Summary& summary;
+  double relative_tolerance, duration, seconds, energy_error, energy_exchanged;
+
+  double energy_share() const { return energy_exchanged > 0.0 ? energy_error / energy_exchanged : 0.0; }
+  double seconds_per_second() const { return duration > 0.0 ? seconds / duration : 0.0; }
+};
+
+Course course_of(const Replay& replay, const Options& options) {
+  return {replay.run.summary,      options.replay.integrator.relative_tolerance,
+          replay.duration,         replay.seconds,
+          replay.run.energy_error, replay.run.energy_exchanged};
+}
+
+Course course_of(const validation::HopRun& run, const Options& options) {
+  return {run.summary,      options.hop.integrator.relative_tolerance,
+          run.time,         run.seconds,
+          run.energy_error, run.energy_exchanged};
+}
 
 Replay replay_trial(const Options& options, std::string& model_file) {
   model_file = options.model.empty() ? validation::model_of_trial(options.trial) : options.model;
@@ -35,43 +60,54 @@ Replay replay_experiment(const Options& options) {
   return validation::replay(model, validation::read_experiment(options.experiment, model), options.replay);
 }
 
-double relative(double error, double exchanged) { return exchanged > 0.0 ? error / exchanged : 0.0; }
+nlohmann::json to_json(const Course& course) {
+  const integrate::Summary& summary = course.summary;
+  return {{"duration", course.duration},
+          {"summary",
+           {{"method", summary.method},
+            {"relative_tolerance", course.relative_tolerance},
+            {"steps", summary.steps},
+            {"error_test_failures", summary.error_test_failures},
+            {"rate_evaluations", summary.rate_evaluations},
+            {"jacobian_evaluations", summary.jacobian_evaluations},
+            {"roots", summary.switches_found},
+            {"restarts", summary.restarts},
+            {"wall_time_per_simulated_second", course.seconds_per_second()}}},
+          {"energy",
+           {{"error", course.energy_error},
+            {"exchanged", course.energy_exchanged},
+            {"relative_error", course.energy_share()}}}};
+}
 
 nlohmann::json to_json(const Replay& replay, const Options& options, const std::string& model) {
-  const integrate::Summary& summary = replay.run.summary;
-  nlohmann::json json{{"model", model},
-                      {"closed_loop", options.replay.closed_loop},
-                      {"samples", replay.run.time.size()},
-                      {"duration", replay.duration}};
+  nlohmann::json json = to_json(course_of(replay, options));
+  json["model"] = model;
+  json["closed_loop"] = options.replay.closed_loop;
+  json["samples"] = replay.run.time.size();
   json[options.trial.empty() ? "experiment" : "trial"] =
       options.trial.empty() ? options.experiment : options.trial;
-  json["summary"] = {{"method", summary.method},
-                     {"relative_tolerance", options.replay.integrator.relative_tolerance},
-                     {"steps", summary.steps},
-                     {"error_test_failures", summary.error_test_failures},
-                     {"rate_evaluations", summary.rate_evaluations},
-                     {"jacobian_evaluations", summary.jacobian_evaluations},
-                     {"roots", summary.switches_found},
-                     {"restarts", summary.restarts},
-                     {"wall_time_per_simulated_second", replay.seconds / replay.duration}};
-  json["energy"] = {{"error", replay.run.energy_error},
-                    {"exchanged", replay.run.energy_exchanged},
-                    {"relative_error", relative(replay.run.energy_error, replay.run.energy_exchanged)}};
   json["channels"] = nlohmann::json::array();
   for (const validation::ReplayError& error : replay.errors) {
     json["channels"].push_back(
         {{"name", error.sensor}, {"unit", error.unit}, {"rms", error.rms}, {"floor", error.floor}});
   }
-  if (!options.out.empty()) {
-    json["trace"] = options.out;
-  }
   return json;
 }
 
-void print(const Replay& replay, const Options& options) {
-  const integrate::Summary& summary = replay.run.summary;
-  fmt::print("Simulated {:g} s with {}, relative tolerance {:g}:\n\n", replay.duration, summary.method,
-             options.replay.integrator.relative_tolerance);
+nlohmann::json to_json(const validation::HopRun& run, const Options& options) {
+  nlohmann::json json = to_json(course_of(run, options));
+  json["model"] = options.model;
+  json["controller"] = options.controller;
+  json["hops"] = hops_json(run);
+  json["fell"] = run.fell;
+  json["end"] = run.end;
+  return json;
+}
+
+void print(const Course& course) {
+  const integrate::Summary& summary = course.summary;
+  fmt::print("Simulated {:g} s with {}, relative tolerance {:g}:\n\n", course.duration, summary.method,
+             course.relative_tolerance);
   print_table(
       {"summary", ""},
       {{"integrator steps",
@@ -80,72 +116,119 @@ void print(const Replay& replay, const Options& options) {
        {"Jacobian evaluations", fmt::format("{}", summary.jacobian_evaluations)},
        {"roots of switching functions", fmt::format("{}", summary.switches_found)},
        {"restarts", fmt::format("{}", summary.restarts)},
-       {"energy balance",
-        fmt::format("off by {:.2e} J, {:.1e} of the {:.4g} J exchanged", replay.run.energy_error,
-                    relative(replay.run.energy_error, replay.run.energy_exchanged),
-                    replay.run.energy_exchanged)},
-       {"wall time per simulated second", fmt::format("{:.3g} s", replay.seconds / replay.duration)}});
-  if (!replay.errors.empty()) {
-    fmt::print("\nMeasured minus simulated, in one piece from the start ({}):\n\n",
-               options.replay.closed_loop ? "closed loop" : "recorded commands");
-    std::vector<std::vector<std::string>> rows;
-    for (const validation::ReplayError& error : replay.errors) {
-      rows.push_back({error.sensor, fmt::format("{:.4g} {}", error.rms, error.unit),
-                      fmt::format("{:.3g} {}", error.floor, error.unit)});
-    }
-    print_table({"channel", "rms", "floor"}, rows);
+       {"energy balance", fmt::format("off by {:.2e} J, {:.1e} of the {:.4g} J exchanged",
+                                      course.energy_error, course.energy_share(), course.energy_exchanged)},
+       {"wall time per simulated second", fmt::format("{:.3g} s", course.seconds_per_second())}});
+}
+
+void print_errors(const Replay& replay, bool closed_loop) {
+  if (replay.errors.empty()) {
+    return;
   }
+  fmt::print("\nMeasured minus simulated, in one piece from the start ({}):\n\n",
+             closed_loop ? "closed loop" : "recorded commands");
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::ReplayError& error : replay.errors) {
+    rows.push_back({error.sensor, fmt::format("{:.4g} {}", error.rms, error.unit),
+                    fmt::format("{:.3g} {}", error.floor, error.unit)});
+  }
+  print_table({"channel", "rms", "floor"}, rows);
+}
+
+/// The trace and the JSON, where asked for.
+void write_files(nlohmann::json json, const Table& trace, const Options& options) {
+  if (!options.out.empty()) {
+    write_trace(trace, options.out);
+    json["trace"] = options.out;
+  }
+  write_json(json, options.json);
+}
+
+std::string chosen(const Options& options) {
+  std::string names;
+  const auto add = [&](const std::string& given, const char* name) {
+    if (!given.empty()) {
+      names += (names.empty() ? "" : " and ") + std::string(name);
+    }
+  };
+  add(options.trial, "TRIAL");
+  add(options.experiment, "--experiment");
+  add(options.controller, "--controller");
+  return names;
+}
+
+void check_choice(const Options& options) {
+  const std::string names = chosen(options);
+  if (names.empty() || names.find(' ') != std::string::npos) {
+    throw InputError({"", 0, "simulate"}, names.empty() ? "nothing" : names,
+                     "one of TRIAL, --experiment and --controller");
+  }
+  if (options.trial.empty() && options.model.empty()) {
+    throw InputError({"", 0, names}, "no --model", "the model that is simulated");
+  }
+  if (options.trial.empty() && options.replay.closed_loop) {
+    throw InputError({"", 0, "--closed-loop"}, names, "a trial that names its controller");
+  }
+}
+
+void run_hops(Options options) {
+  validation::HopOptions& hop = options.hop;
+  hop.energy = true;
+  hop.trace = !options.out.empty();
+  hop.stop = &stop_flag();
+  hop.integrator.validate();
+  const model::Model model = model::read_model(options.model, model::known_effects());
+  const validation::HopRun run =
+      validation::hop(model, validation::read_hopping(options.controller), validation::HopStart(), hop);
+  write_files(to_json(run, options), run.trace, options);
+  print(course_of(run, options));
+  fmt::print("\n");
+  print_hops(run);
+}
+
+void run_replay(Options options) {
+  options.replay.integrator.validate();
+  options.replay.stop = &stop_flag();
+  std::string model = options.model;
+  const Replay replay = options.trial.empty() ? replay_experiment(options) : replay_trial(options, model);
+  write_files(to_json(replay, options, model), replay.trace, options);
+  print(course_of(replay, options));
+  print_errors(replay, options.replay.closed_loop);
+}
+
+void run(const Options& options) {
+  check_choice(options);
+  check_trace_file(options.out);
+  check_writable(options.json);
+  check_not_an_input(options.out, {options.model, options.experiment, options.controller});
+  options.controller.empty() ? run_replay(options) : run_hops(options);
   if (!options.out.empty()) {
     fmt::print("\nTrace: {}\n", options.out);
   }
 }
 
-void check_choice(const Options& options) {
-  if (options.trial.empty() == options.experiment.empty()) {
-    throw InputError({"", 0, "simulate"},
-                     options.trial.empty() ? "neither TRIAL nor --experiment" : "both TRIAL and --experiment",
-                     "one of them");
-  }
-  if (!options.experiment.empty() && options.model.empty()) {
-    throw InputError({"", 0, "--experiment"}, "no --model", "the model that the experiment is run on");
-  }
-  if (!options.experiment.empty() && options.replay.closed_loop) {
-    throw InputError({"", 0, "--closed-loop"}, "an experiment", "a trial that names its controller");
-  }
-}
-
-void run(Options options) {
-  check_choice(options);
-  check_trace_file(options.out);
-  check_writable(options.json);
-  check_not_an_input(options.out, {options.model, options.experiment});
-  integrate::Options& integrator = options.replay.integrator;
-  integrator.set_tolerance(integrator.relative_tolerance);
-  integrator.validate();
-  options.replay.stop = &stop_flag();
-  std::string model = options.model;
-  const Replay replay = options.trial.empty() ? replay_experiment(options) : replay_trial(options, model);
-  if (!options.out.empty()) {
-    write_trace(replay.trace, options.out);
-  }
-  write_json(to_json(replay, options, model), options.json);
-  print(replay, options);
-}
-
-void add_method(CLI::App& command, integrate::Options& options) {
+void add_method(CLI::App& command, Options& options) {
   const std::map<std::string, integrate::Method> methods{{"explicit_rk", integrate::Method::explicit_rk},
                                                          {"implicit_rk", integrate::Method::implicit_rk},
                                                          {"rosenbrock", integrate::Method::rosenbrock},
                                                          {"bdf", integrate::Method::bdf}};
   command
       .add_option_function<std::string>(
-          "--method", [&options, methods](const std::string& name) { options.method = methods.at(name); },
-          "explicit_rk, or for stiff models rosenbrock, implicit_rk or bdf")
-      ->default_str("explicit_rk")
+          "--method",
+          [&options, methods](const std::string& name) {
+            options.replay.integrator.method = options.hop.integrator.method = methods.at(name);
+          },
+          "explicit_rk, or for stiff models rosenbrock (as it is with --controller), implicit_rk or bdf")
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD");
-  command.add_option("--tolerance", options.relative_tolerance, "relative tolerance of the integrator")
-      ->capture_default_str()
+  command
+      .add_option_function<double>(
+          "--tolerance",
+          [&options](double tolerance) {
+            options.replay.integrator.set_tolerance(tolerance);
+            options.hop.integrator.set_tolerance(tolerance);
+          },
+          "relative tolerance of the integrator: 1e-8, with --controller 1e-5")
       ->check(between(1e-13, 1e-1))
       ->type_name("NUMBER");
 }
@@ -154,22 +237,33 @@ void add_method(CLI::App& command, integrate::Options& options) {
 
 void add_simulate(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
-  options->replay.integrator.relative_tolerance = 1e-8;
-  CLI::App* command = app.add_subcommand("simulate", "Run a trial or an experiment on a model, in one piece");
+  options->replay.integrator.set_tolerance(1e-8);
+  CLI::App* command =
+      app.add_subcommand("simulate", "Run a trial, an experiment or a controller on a model, in one piece");
   command->add_option("trial", options->trial, "trial folder (or its trial.yaml)")->type_name("TRIAL");
   command
       ->add_option("--experiment", options->experiment, "experiment file in place of a trial; needs --model")
       ->type_name("FILE");
+  command
+      ->add_option("--controller", options->controller,
+                   "in place of a trial let the robot hop under this controller; needs --model")
+      ->type_name("FILE");
+  command->add_option("--hops", options->hop.hops, "with --controller: end after so many hops")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->needs("--controller");
   command->add_option("--model", options->model, "model file in place of the one the trial names")
       ->type_name("FILE");
   command->add_option("--data", options->data_folder, "folder with the trial's data files")->type_name("DIR");
   command->add_option("-o,--out", options->out, "write the trace to FILE (.csv or .mat)")->type_name("FILE");
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "let the trial's controllers command the motors, not the recording");
-  add_method(*command, options->replay.integrator);
+  add_method(*command, *options);
   add_json_option(*command, options->json);
   command->footer(
-      "Example:\n  plumbline simulate demo/siso_mLA --model robots/mabel/leg_bench.yaml -o trace.csv");
+      "Example:\n  plumbline simulate demo/siso_mLA --model robots/mabel/leg_bench.yaml -o trace.csv\n"
+      "  plumbline simulate --model robots/mabel/mabel.yaml --controller robots/mabel/hopping_boom.yaml "
+      "--hops 10");
   command->callback([options] { run(*options); });
 }
 

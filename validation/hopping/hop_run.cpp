@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "simulator/integrate/energy_account.h"
 #include "simulator/trace/error.h"
 #include "validation/hopping/hop_counter.h"
 #include "validation/hopping/hop_recorder.h"
@@ -55,8 +56,11 @@ class Account {
         watchdog_(watch_),
         recorder_(model) {}
 
-  bool over(const HopSimulation& s) {
+  bool over(HopSimulation& s) {
     const Eigen::VectorXd x = s.state();
+    if (options_.energy) {
+      keep_energy(s, x);
+    }
     run_.time = s.time();
     counter_.feet(run_.time, s.touches());
     counter_.load(s.loop().torques(), stretch(s.plant(), "leg_angle", x), stretch(s.plant(), "leg_shape", x));
@@ -78,12 +82,20 @@ class Account {
   }
 
  private:
+  void keep_energy(HopSimulation& s, const Eigen::VectorXd& x) {
+    const double stored = s.plant().energetics(x.data(), s.command().data()).stored;
+    s.time() > 0.0 ? energy_.add(stored) : energy_.start(stored);
+    run_.energy_error = energy_.error(s.work(), s.dissipated());
+    run_.energy_exchanged = energy_.exchanged(s.work(), s.dissipated());
+  }
+
   const HopOptions& options_;
   HopRun& run_;
   HipWatch watch_;
   HopCounter counter_;
   HopWatchdog watchdog_;
   HopRecorder recorder_;
+  integrate::EnergyAccount energy_;
 };
 
 void go(HopSimulation& simulation, const HopOptions& options, Account& account) {
@@ -111,7 +123,7 @@ HopOptions::HopOptions() {
 
 HopRun hop(const model::Model& model, const controllers::HoppingConfig& config, const HopStart& start,
            const HopOptions& options) {
-  HopSimulation simulation(model, config, options.integrator, options.terrain);
+  HopSimulation simulation(model, config, options.integrator, options.terrain, options.energy);
   simulation.start(place(model, config, start, options, simulation));
   HopRun run;
   Account account(model, config, options, run);

@@ -21,6 +21,7 @@ struct HopOptions {
   integrate::Options integrator;
   contact::Terrain terrain;        ///< level ground at 0 m unless set
   bool trace = false;              ///< keep every sample
+  bool energy = false;             ///< whether the energy adds up, too; the steps are then a little different
   const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown
   HopOptions();
 };
@@ -32,7 +33,8 @@ struct HopRun {
   std::string end;             ///< how and when it fell, for people; empty when it did not
   double time_at_limit = 0.0;  ///< summed over the motors, that a command was at its limit, s
   integrate::Summary summary;
-  double seconds = 0.0;  ///< wall time
+  double energy_error = 0.0, energy_exchanged = 0.0;  ///< as of integrate::RunResult, J; 0 unless asked for
+  double seconds = 0.0;                               ///< wall time
   Table trace;
 };
 
