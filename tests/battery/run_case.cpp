@@ -27,13 +27,20 @@ bool names(const model::EffectUse& truth, const std::string& effect, const std::
   return truth.law->declaration().name == effect && truth.at == at;
 }
 
-/// Is the truth the finding's name, or one of a set of at most so many?
+/// The finding and its rivals; what is one force under two names on the robot counts once.
+std::size_t set_size(const validation::Finding& finding) {
+  return 1 +
+         static_cast<std::size_t>(std::count_if(finding.rivals.begin(), finding.rivals.end(),
+                                                [](const validation::Rival& rival) { return !rival.same; }));
+}
+
+/// Is the truth what the finding names, or one of a set of at most so many?
 bool finds(const validation::Finding& finding, const model::EffectUse& truth, std::size_t most_names) {
   return names(truth, finding.effect, finding.at) ||
-         (1 + finding.rivals.size() <= most_names &&
-          std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const validation::Rival& rival) {
-            return names(truth, rival.name.effect, rival.name.at);
-          }));
+         std::any_of(finding.rivals.begin(), finding.rivals.end(), [&](const validation::Rival& rival) {
+           return (rival.same || set_size(finding) <= most_names) &&
+                  names(truth, rival.name.effect, rival.name.at);
+         });
 }
 
 void recover(const validation::Finding& finding, const model::EffectUse& truth, Result& result) {
@@ -81,13 +88,13 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
   result.right = is_right(diagnosis, truth.hidden, result.one.kind);
   result.in_set =
       result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
-      finds(diagnosis.accepted.front(), truth.hidden.front(), 1 + diagnosis.accepted.front().rivals.size());
+      finds(diagnosis.accepted.front(), truth.hidden.front(), set_size(diagnosis.accepted.front()));
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];
     const std::string name = finding.label();
     if (i == 0) {
       result.first = name;
-      result.set_size = 1 + static_cast<int>(finding.rivals.size());
+      result.set_size = static_cast<int>(set_size(finding));
     } else {
       result.others += (i > 1 ? " " : "") + name;
     }

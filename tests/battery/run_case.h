@@ -27,7 +27,7 @@ struct Result {
   std::string verdict;
   std::string first;   ///< first effect named, "coulomb@mLA"; empty: none
   std::string others;  ///< further accepted effects, joined by spaces
-  int set_size = 0;    ///< the first name and its rivals
+  int set_size = 0;    ///< the first name and its rivals, without those that are the same force on the robot
   /// hidden: named first, or in a set of at most kMostNames; pair: so for both, and nothing else;
   /// none: nothing named; removed, foreign: no verdict "missing"
   bool right = false;

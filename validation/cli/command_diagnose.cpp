@@ -54,6 +54,20 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
   print_table({"trial", "at", "rms", "of the force", "it", "share of its variance that follows"}, rows);
 }
 
+/// Those that are the same force, or those that are not.
+void print_rivals(const char* what, const Finding& finding, bool same) {
+  std::string names;
+  for (const Rival& rival : finding.rivals) {
+    if (rival.same == same) {
+      names += fmt::format("{} {} at {}", names.empty() ? "" : ";", rival.name.effect, rival.name.at);
+      names += same ? "" : fmt::format(" (correlation {:.4f})", rival.correlation);
+    }
+  }
+  if (!names.empty()) {
+    fmt::print("  {}:{}.\n", what, names);
+  }
+}
+
 void print_verdict(const Diagnosis& diagnosis) {
   if (diagnosis.interrupted) {
     fmt::print("Stopped before the end: what follows is what was finished.\n\n");
@@ -80,13 +94,8 @@ void print_verdict(const Diagnosis& diagnosis) {
       const std::string how = p.chosen ? "(chosen)" : fmt::format("+- {:.2g} {}", p.deviation, p.unit);
       fmt::print("  {} = {:.4g} {}\n", p.name, p.value, how);
     }
-    if (!finding.rivals.empty()) {
-      fmt::print("  These data cannot tell it from:");
-      for (const Rival& rival : finding.rivals) {
-        fmt::print(" {} at {} (correlation {:.4f});", rival.name.effect, rival.name.at, rival.correlation);
-      }
-      fmt::print("\n");
-    }
+    print_rivals("On this model it is the same force as", finding, true);
+    print_rivals("These data cannot tell it from", finding, false);
   }
   const std::string part = validation::part_sentence(diagnosis);
   if (!part.empty()) {

@@ -12,6 +12,7 @@
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/revise.h"
+#include "validation/diagnose/same_force.h"
 #include "validation/predict/kept_results.h"
 #include "validation/predict/reach.h"
 
@@ -324,6 +325,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   try {
     const Data tried = diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
     finish(data, tried, options, progress, diagnosis);
+    mark_same_forces(model_of(diagnosis.final_stage), catalogue, diagnosis.accepted);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

@@ -41,6 +41,7 @@ struct Named {
 struct Rival {
   Named name;
   double correlation = 1.0;  ///< between what either takes off the residuals (correlation.h); 1: one answer
+  bool same = false;         ///< on this model one force under two names: no experiment tells them apart
 };
 
 /// One accepted effect. Held-out errors are those that the train trials foretell with what they leave open of

@@ -85,7 +85,7 @@ Finding finding_of(const Candidate& candidate) {
   finding.at = candidate.at;
   finding.equation = candidate.law->declaration().equation;
   for (const std::string& same : candidate.same_places) {
-    finding.rivals.push_back({{finding.effect, same}, 1.0});
+    finding.rivals.push_back({{finding.effect, same}, 1.0, true});
   }
   return finding;
 }
@@ -128,7 +128,7 @@ void add_rival(const Candidate& rival, double correlation, Finding& finding) {
     return other.name.effect == name.effect && other.name.at == name.at;
   });
   if (!known) {
-    finding.rivals.push_back({name, correlation});
+    finding.rivals.push_back({name, correlation, false});
   }
 }
 

@@ -56,8 +56,9 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   Finding finding = finding_of(winner.candidate);
   finding.selected_share = share;
   if (1.0 - share > kFair) {
-    finding.rivals.push_back(
-        {{old.effect, old.at}, correlation(without, after(winner.refit), diagnosis.final_stage, data)});
+    finding.rivals.push_back({{old.effect, old.at},
+                              correlation(without, after(winner.refit), diagnosis.final_stage, data),
+                              false});
   }
   set_errors(without.estimate, winner.refit.estimate, finding);
   std::vector<Finding> accepted = diagnosis.accepted;

@@ -42,8 +42,10 @@ nlohmann::json to_json(const Finding& finding) {
                       {"rivals", nlohmann::json::array()},
                       {"parameters", nlohmann::json::array()}};
   for (const Rival& rival : finding.rivals) {
-    json["rivals"].push_back(
-        {{"effect", rival.name.effect}, {"at", rival.name.at}, {"correlation", rival.correlation}});
+    json["rivals"].push_back({{"effect", rival.name.effect},
+                              {"at", rival.name.at},
+                              {"correlation", rival.correlation},
+                              {"same", rival.same}});
   }
   for (const ParameterValue& p : finding.parameters) {
     json["parameters"].push_back({{"name", p.name},

@@ -17,9 +17,16 @@ function drawFindings() {
     make("table", {}, make("tbody", {}, finding.parameters.map((p) => make("tr", {}, make("td", {}, p.name),
       make("td", {}, `${number(p.value, digitsFor(p.value, p.standard_deviation))} ± ${number(p.standard_deviation, 2)} ${p.unit === "1" ? "" : p.unit}`))))),
     make("p", {}, `Held-out error ${ratio(finding.held_out_before)} → ${ratio(finding.held_out_after)}, train ${ratio(finding.train_before)} → ${ratio(finding.train_after)} times the floor. Chosen in ${percent(finding.selected_share)} of the resamples of windows.`),
-    make("p", {}, finding.rivals.length === 0 ? "Nothing else in the catalogue explains these data as well."
-      : `These data cannot tell it from: ${finding.rivals.map((rival) => `${labelOf(rival)} (correlation ${rival.correlation.toFixed(4)})`).join("; ")}.`)));
+    make("p", {}, rivalWords(finding))));
   $("findings").replaceChildren(...(cards.length ? cards : [make("p", { class: "note" }, "No effect was accepted.")]));
+}
+
+function rivalWords({ rivals }) {
+  const same = rivals.filter((rival) => rival.same).map(labelOf);
+  const others = rivals.filter((rival) => !rival.same).map((rival) => `${labelOf(rival)} (correlation ${rival.correlation.toFixed(4)})`);
+  return [...(same.length ? [`On this model it is the same force as: ${same.join("; ")}.`] : []),
+    others.length ? `These data cannot tell it from: ${others.join("; ")}.`
+      : "Nothing else in the catalogue explains these data as well."].join(" ");
 }
 
 /** Rows of the first round: the named effect and its rivals first, joined; then the rest by error. */
