@@ -29,9 +29,8 @@ FitNumbers numbers(double after, double deviation, int windows) {
   FitNumbers made;
   made.before = Eigen::VectorXd::Zero(1);
   made.after = Eigen::VectorXd::Constant(1, after);
-  made.deviations = Eigen::VectorXd::Constant(1, deviation);
-  made.correlation = Eigen::MatrixXd::Ones(1, 1);
-  made.windows = windows;
+  made.precision = {Eigen::VectorXd::Constant(1, deviation), Eigen::VectorXd::Constant(1, windows - 1.0),
+                    Eigen::MatrixXd::Ones(1, 1)};
   return made;
 }
 
@@ -100,11 +99,10 @@ TEST(Judge, DoubtsParametersThatMoveTogether) {
   FitNumbers two;
   two.before = Eigen::VectorXd::Zero(3);
   two.after = Eigen::VectorXd::Ones(3);
-  two.deviations = Eigen::VectorXd::Constant(3, 0.1);
-  two.correlation = Eigen::MatrixXd::Identity(3, 3);
-  two.correlation(0, 2) = two.correlation(2, 0) = -0.99;
-  two.correlation(0, 1) = two.correlation(1, 0) = 0.5;
-  two.windows = 30;
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(3, 3);
+  correlation(0, 2) = correlation(2, 0) = -0.99;
+  correlation(0, 1) = correlation(1, 0) = 0.5;
+  two.precision = {Eigen::VectorXd::Constant(3, 0.1), Eigen::VectorXd::Constant(3, 27.0), correlation};
   const auto fitted = judge({parameter("a"), parameter("b"), parameter("c")}, two, {});
   EXPECT_EQ(fitted[0].partner, "c");
   EXPECT_EQ(fitted[0].correlation, -0.99);
@@ -116,7 +114,7 @@ TEST(Judge, DoubtsParametersThatMoveTogether) {
 
 TEST(Judge, SaysWhenTheDataDoNotSeeAParameter) {
   FitNumbers unseen = numbers(1.0, 0.0, 20);
-  unseen.correlation(0, 0) = 0.0;
+  unseen.precision.correlation(0, 0) = 0.0;
   const FittedParameter fitted = judge({parameter("a")}, unseen, {}).front();
   EXPECT_FALSE(fitted.seen());
   EXPECT_TRUE(std::isinf(fitted.deviation));

@@ -149,7 +149,7 @@ TEST(OwnParameters, IntervalsHoldTheTruthAsOftenAsTheySay) {
     const Stage fitted = fitted_anew({open, parameters, {}}, data);
     PredictorPool pool(open, data);
     const Eigen::VectorXd deviations =
-        parameter_deviations(pool, data.all_windows(), parameters, fitted.estimate, nullptr);
+        precision_of(pool, data.all_windows(), parameters, fitted.estimate).deviations;
     for (Eigen::Index p = 0; p < truth.size(); ++p) {
       inside += std::abs(fitted.estimate.theta[p] - truth[p]) < 1.96 * deviations[p] ? 1 : 0;
     }
@@ -168,7 +168,7 @@ TEST(OwnParameters, ALockedEncoderIsReadOnce) {
   PredictorPool pool(model, data);
   const Estimate found = gauss_newton(pool, offset, Eigen::VectorXd::Constant(1, 0.01), {}, {8, 1e-6});
   const Eigen::VectorXd deviations =
-      parameter_deviations(pool, data.windows_of(Role::train), offset, found, nullptr);
+      precision_of(pool, data.windows_of(Role::train), offset, found).deviations;
   const double count = model.find_sensor("mLA")->resolution;
   EXPECT_LT(std::abs(found.theta[0] - 0.0142), 1.96 * deviations[0]);
   EXPECT_GT(std::abs(found.theta[0] - 0.0142), 0.05 * count);

@@ -51,7 +51,7 @@ TEST(Deviations, OfAValueThatNothingTellsAreWide) {
   found.estimate.theta[1] = 0.0;
   PredictorPool pool(found.model, data);
   const Eigen::VectorXd deviations =
-      parameter_deviations(pool, data.windows_of(Role::train), found.parameters, found.estimate, nullptr);
+      precision_of(pool, data.windows_of(Role::train), found.parameters, found.estimate).deviations;
   EXPECT_GT(deviations[2], 3.0 * found.estimate.theta[2]);
   EXPECT_LT(deviations[0], 0.1 * found.estimate.theta[0]);
 }

@@ -1,5 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/cli/commands.h"
@@ -32,6 +35,7 @@ nlohmann::json to_json(const FittedParameter& parameter) {
                       {"before", json_number(parameter.before)},
                       {"after", json_number(parameter.after)},
                       {"standard_deviation", json_number(parameter.deviation)},
+                      {"degrees_of_freedom", json_number(parameter.degrees_of_freedom)},
                       {"interval", {json_number(parameter.lower), json_number(parameter.upper)}},
                       {"partner", parameter.partner},
                       {"correlation", parameter.correlation},
@@ -57,7 +61,6 @@ nlohmann::json to_json(const Fit& fit, const Loaded& loaded, const Options& opti
                       {"before", to_json(fit.before, *loaded.data)},
                       {"after", to_json(fit.after, *loaded.data)},
                       {"windows", fit.windows},
-                      {"degrees_of_freedom", fit.degrees_of_freedom},
                       {"confidence", options.fit.confidence},
                       {"iterations", fit.iterations},
                       {"converged", fit.converged},
@@ -92,6 +95,19 @@ void print_doubts(const Fit& fit) {
   }
 }
 
+/// Of all parameters, "12" or "4 to 12".
+std::string freedom_text(const Fit& fit) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const FittedParameter& p : fit.parameters) {
+    least = std::min(least, p.degrees_of_freedom);
+    most = std::max(most, p.degrees_of_freedom);
+  }
+  const std::string low = fmt::format("{:.0f}", least);
+  const std::string high = fmt::format("{:.0f}", most);
+  return low == high ? low : low + " to " + high;
+}
+
 void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   std::vector<std::vector<std::string>> rows;
   for (const FittedParameter& p : fit.parameters) {
@@ -102,7 +118,7 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
                fmt::format("{:g} % interval", 100.0 * options.fit.confidence), "strongest correlation"},
               rows);
   fmt::print("\nIntervals from the scatter between {} windows ({} degrees of freedom).\n", fit.windows,
-             fit.degrees_of_freedom);
+             freedom_text(fit));
   if (!fit.converged) {
     fmt::print("Not settled after {} iterations: the values may still move (--iterations).\n",
                fit.iterations);

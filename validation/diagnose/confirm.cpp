@@ -132,7 +132,7 @@ std::string undecided(const Refit& refit, const Data& data) {
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
   Estimate at = refit.estimate;
   at.theta = refit.estimate.predicted.theta;
-  const Eigen::VectorXd deviations = parameter_deviations(pool, data.all_windows(), parameters, at, nullptr);
+  const Eigen::VectorXd deviations = precision_of(pool, data.all_windows(), parameters, at).deviations;
   const model::Model fitted = with_values(refit.extended.model, parameters, at.theta);
   for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {
     const model::EffectUse& use = fitted.effects[static_cast<std::size_t>(parameters[p].id.effect)];

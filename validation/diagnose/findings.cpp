@@ -96,7 +96,7 @@ void set_values(const Stage& stage, const Data& data, std::vector<Finding>& find
   }
   PredictorPool pool(stage.model, data);
   const Eigen::VectorXd deviations =
-      parameter_deviations(pool, data.windows_of(Role::train), stage.parameters, stage.estimate, nullptr);
+      precision_of(pool, data.windows_of(Role::train), stage.parameters, stage.estimate).deviations;
   const auto first = static_cast<int>(stage.model.effects.size() - findings.size());
   for (std::size_t f = 0; f < findings.size(); ++f) {
     findings[f].parameters.clear();

@@ -67,16 +67,16 @@ std::string bound_reached(const FreeParameter& parameter, double value) {
   return "";
 }
 
-void add_doubts(const FreeParameter& parameter, const FitNumbers& numbers, bool seen,
-                const FitOptions& options, FittedParameter& fitted) {
+void add_doubts(const FreeParameter& parameter, bool seen, const FitOptions& options,
+                FittedParameter& fitted) {
   if (!seen) {
     fitted.doubts.push_back({"unseen", "these motions do not depend on it; its value was left as it was"});
     return;
   }
-  if (numbers.windows <= static_cast<int>(numbers.after.size())) {
+  if (fitted.degrees_of_freedom < 1.0) {
     fitted.doubts.push_back(
         {"few_windows",
-         "there are no more windows than parameters, so nothing says how sure it is: record "
+         "there are no more windows that tell it than parameters, so nothing says how sure it is: record "
          "longer or free fewer"});
   }
   const std::string bound = bound_reached(parameter, fitted.after);
@@ -106,18 +106,18 @@ bool FittedParameter::seen() const {
                       [](const Doubt& doubt) { return doubt.kind == "unseen"; });
 }
 
-double student_quantile(double confidence, int degrees_of_freedom) {
-  if (degrees_of_freedom < 1) {
+double student_quantile(double confidence, double degrees_of_freedom) {
+  if (degrees_of_freedom < 1.0) {
     return std::numeric_limits<double>::infinity();
   }
-  const boost::math::students_t distribution(degrees_of_freedom);
+  constexpr double kMany = 1e6;  // as good as normal
+  const boost::math::students_t distribution(std::min(degrees_of_freedom, kMany));
   return boost::math::quantile(distribution, 0.5 + 0.5 * confidence);
 }
 
 std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters, const FitNumbers& numbers,
                                    const FitOptions& options) {
-  const double quantile =
-      student_quantile(options.confidence, numbers.windows - static_cast<int>(parameters.size()));
+  const Eigen::MatrixXd& correlation = numbers.precision.correlation;
   std::vector<FittedParameter> all;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto p = static_cast<Eigen::Index>(i);
@@ -126,16 +126,18 @@ std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters,
     fitted.unit = parameters[i].unit;
     fitted.before = numbers.before[p];
     fitted.after = numbers.after[p];
-    const bool seen = numbers.correlation(p, p) > 0.5;
-    fitted.deviation = seen ? numbers.deviations[p] : std::numeric_limits<double>::infinity();
+    const bool seen = correlation(p, p) > 0.5;
+    fitted.deviation = seen ? numbers.precision.deviations[p] : std::numeric_limits<double>::infinity();
+    fitted.degrees_of_freedom = numbers.precision.freedom[p];
+    const double quantile = student_quantile(options.confidence, fitted.degrees_of_freedom);
     if (seen && std::isfinite(quantile)) {
       set_interval(parameters[i], quantile, fitted);
     } else {
       fitted.lower = parameters[i].lower;
       fitted.upper = parameters[i].upper;
     }
-    set_partner(parameters, numbers.correlation, p, fitted);
-    add_doubts(parameters[i], numbers, seen, options, fitted);
+    set_partner(parameters, correlation, p, fitted);
+    add_doubts(parameters[i], seen, options, fitted);
     all.push_back(std::move(fitted));
   }
   return all;
@@ -161,16 +163,12 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
       estimate(pool, parameters, near.theta, near.x0, {options.iterations, options.tolerance});
   progress("how sure they are", 0.9);
   numbers.after = fitted.theta;
-  numbers.deviations = parameter_deviations(pool, pool.data().windows_of(Role::train), parameters, fitted,
-                                            &numbers.correlation);
-  numbers.windows = static_cast<int>(data.windows_of(Role::train).size());
+  numbers.precision = precision_of(pool, pool.data().windows_of(Role::train), parameters, fitted);
   Fit result;
   result.before = given.scores;
   result.after = fitted.scores;
   result.parameters = judge(parameters, numbers, options);
-  result.windows = numbers.windows;
-  result.degrees_of_freedom = numbers.windows - static_cast<int>(parameters.size());
-  result.quantile = student_quantile(options.confidence, result.degrees_of_freedom);
+  result.windows = static_cast<int>(data.windows_of(Role::train).size());
   result.iterations = near.iterations + fitted.iterations;
   result.converged = fitted.converged;
   return result;

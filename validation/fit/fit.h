@@ -6,6 +6,7 @@
 
 #include "validation/diagnose/screen.h"
 #include "validation/fit/free_parameters.h"
+#include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 
@@ -30,6 +31,7 @@ struct FittedParameter {
   double lower = 0.0, upper = 0.0;  ///< confidence interval
   std::string partner;              ///< the parameter with the strongest correlation; empty: none
   double correlation = 0.0;
+  double degrees_of_freedom = 0.0;  ///< behind its deviation
   std::vector<Doubt> doubts;
   bool seen() const;  ///< false: the data do not depend on it, and the value was left as it was
 };
@@ -37,29 +39,26 @@ struct FittedParameter {
 struct Fit {
   Scores before, after;
   std::vector<FittedParameter> parameters;
-  int windows = 0;             ///< train windows
-  int degrees_of_freedom = 0;  ///< windows - parameters
-  double quantile = 0.0;       ///< of Student's t for the interval
+  int windows = 0;  ///< train windows
   int iterations = 0;
   bool converged = false;
 };
 
 /// Fits the parameters on the train trials and predicts the held-out ones. The interval is
-///   after -+ t(confidence, windows - parameters) * deviation,
+///   after -+ t(confidence, degrees of freedom) * deviation,
 /// taken along the line on which the parameter is searched (its value, logarithm or reciprocal), so that it
 /// stays physical. Source of t: W. S. Gosset ("Student"), Biometrika 6 (1908) 1-25, by Boost.Math.
 /// Throws InputError when there is no train trial or a parameter cannot leave its null value.
 Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> parameters,
         const FitOptions& options, const Progress& progress);
 
-/// Two-sided quantile of Student's t; infinite for no degrees of freedom.
-double student_quantile(double confidence, int degrees_of_freedom);
+/// Two-sided quantile of Student's t; infinite for less than one degree of freedom.
+double student_quantile(double confidence, double degrees_of_freedom);
 
 /// The numbers of a fit that its doubts rest on.
 struct FitNumbers {
-  Eigen::VectorXd before, after, deviations;
-  Eigen::MatrixXd correlation;  ///< a zero on the diagonal: the data do not depend on the parameter
-  int windows = 0;
+  Eigen::VectorXd before, after;
+  Precision precision;
 };
 
 /// Intervals, partners and doubts.

@@ -1,10 +1,10 @@
 #include "validation/predict/deviations.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "validation/predict/box_least_squares.h"
+#include "validation/predict/cluster_scatter.h"
 
 namespace plumbline::validation {
 
@@ -35,59 +35,41 @@ Eigen::MatrixXd constant_readings(const Data& data, const std::vector<int>& wind
   return covariance;
 }
 
-/// H^-1, of unit diagonal first: how large a column is says nothing of how well it is told from the others.
-Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& H) {
-  const Eigen::VectorXd scale = H.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd unit = scale.asDiagonal() * H * scale.asDiagonal();
-  const Eigen::MatrixXd inverse = unit.completeOrthogonalDecomposition().pseudoInverse();
-  return scale.asDiagonal() * inverse * scale.asDiagonal();
+/// Mean square of the windows' residuals, floor units.
+double mean_square(const Data& data, const std::vector<int>& windows, const std::vector<Reduced>& reduced) {
+  double sse = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const Window& window = data.windows[static_cast<std::size_t>(windows[i])];
+    sse += reduced[i].sse;
+    count += static_cast<double>(window.count) *
+             static_cast<double>(data.trials[static_cast<std::size_t>(window.trial)].measured.size());
+  }
+  return sse / std::max(1.0, count);
 }
 
 }  // namespace
 
-Eigen::VectorXd parameter_deviations(PredictorPool& pool, const std::vector<int>& windows,
-                                     const std::vector<FreeParameter>& parameters, const Estimate& estimate,
-                                     Eigen::MatrixXd* correlation) {
+Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
+                       const std::vector<FreeParameter>& parameters, const Estimate& estimate) {
   const Data& data = pool.data();
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
   const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
   const auto n = static_cast<Eigen::Index>(parameters.size());
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
-  for (const Reduced& one : reduced) {
-    H += one.H;
-    G += one.g * one.g.transpose();
-  }
-  // Never below what white residuals of the present size would give.
-  double sse = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const auto w = static_cast<std::size_t>(windows[i]);
-    sse += reduced[i].sse;
-    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
-    count += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
-  }
   const Eigen::VectorXd known =
       prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
-  H.diagonal() += known;
-  const Eigen::MatrixXd inverse = inverse_of(H);
-  const double m = static_cast<double>(windows.size());
-  G *= m / std::max(1.0, m - static_cast<double>(n));
-  G.diagonal() += known;
-  G += constant_readings(data, windows, reduced, n);
-  const Eigen::MatrixXd sandwich = inverse * G * inverse;
-  const Eigen::MatrixXd white = inverse * (sse / std::max(1.0, count));
-  Eigen::VectorXd deviations(n);
+  const Scatter scatter = cluster_scatter(reduced, known, constant_readings(data, windows, reduced, n));
+  const double white = mean_square(data, windows, reduced);
+  Precision precision{Eigen::VectorXd(n), scatter.freedom, {}};
   for (Eigen::Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    const double search = std::sqrt(std::max({sandwich(p, p), white(p, p), 0.0})) * units[p];
-    deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
+    const double least = white * scatter.inverse(p, p);
+    const double search = std::sqrt(std::max(scatter.covariance(p, p), least)) * units[p];
+    precision.deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
   }
-  if (correlation != nullptr) {
-    const Eigen::VectorXd scale = inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    *correlation = scale.asDiagonal() * inverse * scale.asDiagonal();
-  }
-  return deviations;
+  const Eigen::VectorXd scale = scatter.inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  precision.correlation = scale.asDiagonal() * scatter.inverse * scale.asDiagonal();
+  return precision;
 }
 
 }  // namespace plumbline::validation

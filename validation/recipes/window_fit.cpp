@@ -112,13 +112,8 @@ Fitted run_fit(PredictorPool& pool, const std::vector<FreeParameter>& parameters
     fitted.estimate.theta = fitted.numbers.before;
   }
   fitted.numbers.after = fitted.estimate.theta;
-  const std::vector<int> windows = pool.data().windows_of(Role::train);
-  fitted.numbers.deviations =
-      parameter_deviations(pool, windows, parameters, fitted.estimate, &fitted.numbers.correlation);
-  // Each known unknown brings a datum of its own, so that it does not use up a window.
-  const auto known = std::count_if(parameters.begin(), parameters.end(),
-                                   [](const FreeParameter& one) { return std::isfinite(one.deviation); });
-  fitted.numbers.windows = static_cast<int>(windows.size()) + static_cast<int>(known);
+  fitted.numbers.precision =
+      precision_of(pool, pool.data().windows_of(Role::train), parameters, fitted.estimate);
   return fitted;
 }
 

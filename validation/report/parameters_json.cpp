@@ -76,16 +76,14 @@ json parameters_json(const model::Model& given, const Stage& stage, const Data& 
   FitNumbers numbers;
   numbers.before = stage.estimate.theta;
   numbers.after = stage.estimate.theta;
-  numbers.deviations =
-      parameter_deviations(pool, windows, stage.parameters, stage.estimate, &numbers.correlation);
-  numbers.windows = static_cast<int>(windows.size());
+  numbers.precision = precision_of(pool, windows, stage.parameters, stage.estimate);
   const std::vector<FittedParameter> judged = judge(stage.parameters, numbers, options);
   for (std::size_t p = 0; p < judged.size(); ++p) {
     out["parameters"].push_back(
         parameter_json(stage.parameters[p], judged[p], given_quantity(given, stage.parameters[p])));
   }
-  out["windows"] = numbers.windows;
-  out["correlation"] = matrix_json(numbers.correlation);
+  out["windows"] = windows.size();
+  out["correlation"] = matrix_json(numbers.precision.correlation);
   return out;
 }
 
