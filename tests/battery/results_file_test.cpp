@@ -74,26 +74,18 @@ TEST_F(ResultsFileTest, RefusesOtherOptionsAndLeavesTheFileAlone) {
   const auto size = std::filesystem::file_size(file_);
   RunOptions other = options_;
   other.seed = 8;
-  try {
-    const ResultsFile wrong(file_, other);
-    FAIL() << "read";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr(file_ + ":1: found"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("\"seed\":7"));
-  }
+  EXPECT_THAT([&] { const ResultsFile wrong(file_, other); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::AllOf(testing::HasSubstr(file_ + ":1: found"), testing::HasSubstr("\"seed\":7"))));
   EXPECT_EQ(std::filesystem::file_size(file_), size);
 }
 
 TEST_F(ResultsFileTest, NamesTheLineThatIsNoResult) {
   ResultsFile(file_, options_).add(result());
   append("{\"case\": \"leg_bench/none/1\"}\n");
-  try {
-    const ResultsFile wrong(file_, options_);
-    FAIL() << "read";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr(file_ + ":3: "));
-    EXPECT_THAT(error.what(), testing::HasSubstr("with"));
-  }
+  EXPECT_THAT([&] { const ResultsFile wrong(file_, options_); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::AllOf(testing::HasSubstr(file_ + ":3: "), testing::HasSubstr("with"))));
 }
 
 }  // namespace
