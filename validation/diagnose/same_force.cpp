@@ -1,5 +1,6 @@
 #include "validation/diagnose/same_force.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -13,12 +14,9 @@ namespace {
 constexpr int kMotions = 40;
 
 /// Rates at states whose velocities reach over six decades, so that what happens close to rest counts, too.
-/// Empty when the states are others than those of the model without the effect.
-std::optional<Eigen::VectorXd> rates(const model::Model& model, int states) {
+Eigen::VectorXd rates(const model::Model& model) {
   model::Plant plant(model, {});
-  if (plant.states() != states) {
-    return std::nullopt;
-  }
+  const int states = plant.states();
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::VectorXd all(states * kMotions);
@@ -34,28 +32,27 @@ std::optional<Eigen::VectorXd> rates(const model::Model& model, int states) {
   return all;
 }
 
-/// By how much an effect with one value changes them; empty where that cannot be said.
-std::optional<Eigen::VectorXd> change(const model::Model& model, const effects::Catalogue& catalogue,
-                                      const Named& name) {
+bool has_one_value(const effects::Law& law) {
+  const std::vector<effects::Parameter>& parameters = law.declaration().parameters;
+  return std::count_if(parameters.begin(), parameters.end(),
+                       [](const effects::Parameter& one) { return !one.structural; }) == 1;
+}
+
+/// By how much an effect with one value changes the rates `without` it; empty where that cannot be said: for
+/// other laws, and those that bring states of their own.
+std::optional<Eigen::VectorXd> change(const model::Model& model, const Eigen::VectorXd& without,
+                                      const effects::Catalogue& catalogue, const Named& name) {
   const std::shared_ptr<const effects::Law> law = catalogue.find(name.effect);
-  if (law == nullptr) {
-    return std::nullopt;
-  }
-  int values = 0;
-  for (const effects::Parameter& parameter : law->declaration().parameters) {
-    values += parameter.structural ? 0 : 1;
-  }
-  if (values != 1) {
+  if (law == nullptr || !has_one_value(*law)) {
     return std::nullopt;
   }
   model::Model with = model;
   with.effects.push_back(make_use({law, {}, name.at, {}, {}}, law->typical({})));
-  const int states = model::Plant(model, {}).states();
-  const std::optional<Eigen::VectorXd> without = rates(model, states);
-  std::optional<Eigen::VectorXd> moved = rates(with, states);
-  if (moved) {
-    *moved -= *without;
+  Eigen::VectorXd moved = rates(with);
+  if (moved.size() != without.size()) {
+    return std::nullopt;
   }
+  moved -= without;
   return moved;
 }
 
@@ -69,14 +66,18 @@ bool is_multiple(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
 
 void mark_same_forces(const model::Model& model, const effects::Catalogue& catalogue,
                       std::vector<Finding>& findings) {
+  Eigen::VectorXd without;
   for (Finding& finding : findings) {
     if (finding.rivals.empty()) {
       continue;
     }
-    const std::optional<Eigen::VectorXd> own = change(model, catalogue, finding);
+    if (without.size() == 0) {
+      without = rates(model);
+    }
+    const std::optional<Eigen::VectorXd> own = change(model, without, catalogue, finding);
     for (Rival& rival : finding.rivals) {
       if (own && !rival.same) {
-        const std::optional<Eigen::VectorXd> other = change(model, catalogue, rival.name);
+        const std::optional<Eigen::VectorXd> other = change(model, without, catalogue, rival.name);
         rival.same = other && is_multiple(*own, *other);
       }
     }

@@ -14,9 +14,8 @@ struct Scatter {
   Eigen::VectorXd freedom;  ///< degrees of freedom behind each diagonal entry of `covariance`
 };
 
-/// Covariance of the estimate H^-1 sum J'y with H = sum J'J + diag(known) (J with the
-/// initial state projected out), whose windows' residuals may be
-/// correlated in themselves but not with each other's:
+/// Covariance of the estimate H^-1 sum J'y with H = sum J'J + diag(known) (J with the initial state projected
+/// out), whose windows' residuals may be correlated in themselves but not with each other's:
 ///   H^-1 (sum a a' + known + others) H^-1,  a = L (1 - L^-1 H_w L^-T)^(-1/2) L^-1 g_w,  H = L L'
 /// The square root makes up for what the fit has taken off each window's residuals: little where a window
 /// tells little, much where it decides. `known`: precision of what is known beforehand, which errs by as much
