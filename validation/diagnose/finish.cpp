@@ -89,9 +89,8 @@ void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnos
   constexpr double kPromise = 0.01;
   constexpr int kIterations = 12;
   double residuals = 0.0;
-  for (const Window& window : all.windows) {
-    const Trial& trial = all.trials[static_cast<std::size_t>(window.trial)];
-    residuals += static_cast<double>(window.count) * static_cast<double>(trial.measured.size());
+  for (const int w : all.all_windows()) {
+    residuals += readings(all, w);
   }
   progress("the last values", 0.95);
   Stage& stage = diagnosis.final_stage;

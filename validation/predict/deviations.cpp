@@ -40,10 +40,8 @@ double mean_square(const Data& data, const std::vector<int>& windows, const std:
   double sse = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    const Window& window = data.windows[static_cast<std::size_t>(windows[i])];
     sse += reduced[i].sse;
-    count += static_cast<double>(window.count) *
-             static_cast<double>(data.trials[static_cast<std::size_t>(window.trial)].measured.size());
+    count += readings(data, windows[i]);
   }
   return sse / std::max(1.0, count);
 }

@@ -361,6 +361,12 @@ Sum sum_of(const Data& data, std::size_t t, const std::vector<Eigen::VectorXd>& 
 
 }  // namespace
 
+double readings(const Data& data, int window) {
+  const Window& one = data.windows[static_cast<std::size_t>(window)];
+  const Trial& trial = data.trials[static_cast<std::size_t>(one.trial)];
+  return static_cast<double>(one.count) * static_cast<double>(trial.measured.size());
+}
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
   for (const Role role : {Role::train, Role::held_out}) {

@@ -69,6 +69,9 @@ Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>
 /// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
 
+/// Readings of a window: samples times measured channels, one residual each.
+double readings(const Data& data, int window);
+
 /// Normal equations of one window with its initial state eliminated (Schur complement through QR), in the
 /// search coordinates of the parameters scaled by `unit`: cost(delta) = sse - 2 g'delta + delta' H delta.
 struct Reduced {

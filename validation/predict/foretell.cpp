@@ -52,8 +52,7 @@ Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows,
     sum.H += reduced[i].H;
     sum.g += reduced[i].g;
     sum.sse += reduced[i].sse;
-    const Trial& trial = data.trials[static_cast<std::size_t>(data.windows[w].trial)];
-    sum.samples += static_cast<double>(data.windows[w].count) * static_cast<double>(trial.measured.size());
+    sum.samples += readings(data, windows[i]);
   }
   return sum;
 }

@@ -205,10 +205,7 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
 }
 
 bool is_above_floor(const Data& data, int window, double sse, double fits) {
-  const Window& one = data.windows[static_cast<std::size_t>(window)];
-  const Trial& trial = data.trials[static_cast<std::size_t>(one.trial)];
-  const auto residuals = static_cast<double>(one.count) * static_cast<double>(trial.measured.size());
-  return sse > fits * fits * residuals;
+  return sse > fits * fits * readings(data, window);
 }
 
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits) {
