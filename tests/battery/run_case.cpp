@@ -124,6 +124,14 @@ validation::Progress timed_lines() {
   };
 }
 
+void print_ladder(const validation::Diagnosis& diagnosis) {
+  for (const validation::Rung& rung : diagnosis.ladder) {
+    fmt::print(stderr,
+               "{:8.3f} floors in train, {:.3f} held out ({:.3f} foretold) on {:.3g} of the windows: {}\n",
+               rung.train(), rung.held_out(), rung.foretold(), rung.part, rung.name);
+  }
+}
+
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
   const model::Model bare =
@@ -136,7 +144,11 @@ void run(const RunOptions& options, Result& result) {
   if (!options.bare_only) {
     const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};
     const validation::Progress progress = options.timing ? timed_lines() : silent;
-    judge(validation::diagnose(bare, catalogue_of(one), data, {}, progress), truth, result);
+    const validation::Diagnosis diagnosis = validation::diagnose(bare, catalogue_of(one), data, {}, progress);
+    if (options.timing) {
+      print_ladder(diagnosis);
+    }
+    judge(diagnosis, truth, result);
   }
 }
 

@@ -59,12 +59,11 @@ class Diagnoser {
   /// What was named on shorter beginnings, on these; and what else is missing here.
   void go_on(Diagnosis& diagnosis) {
     progress_("longer parts of the windows", 0.0);
-    Stage longer = fitted_anew(diagnosis.final_stage, data_, x0_);
-    if (!is_below(options_.finished, longer.estimate, data_)) {
-      longer = with_fresh_states(longer);
-    }
-    take("the same further on", longer, diagnosis);
+    take("the same further on", fitted_anew(diagnosis.final_stage, data_, x0_), diagnosis);
     open_own_numbers(diagnosis);
+    if (!is_below(options_.finished, diagnosis.final_stage.estimate, data_)) {
+      replace_last(with_fresh_states(diagnosis.final_stage), diagnosis);
+    }
     look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
   }
 
@@ -92,10 +91,14 @@ class Diagnoser {
     return judged(fresh.estimate, data_) < judged(fitted.estimate, data_) ? fresh : fitted;
   }
 
+  /// The error at which there is nothing to look for. On beginnings of the windows one that would be an
+  /// answer: what little is left shows better further on.
+  double enough() const { return part_ < 1.0 ? options_.finished : options_.at_floor; }
+
   /// One effect after the other from where the ladder stands.
   void look(int most, Diagnosis& diagnosis) {
     for (int round = 0; round < most; ++round) {
-      if (is_below(options_.at_floor, diagnosis.final_stage.estimate, data_) || !step(diagnosis, round)) {
+      if (is_below(enough(), diagnosis.final_stage.estimate, data_) || !step(diagnosis, round)) {
         break;
       }
     }
@@ -164,14 +167,14 @@ class Diagnoser {
   /// they help.
   void open_own_numbers(Diagnosis& diagnosis) const {
     const Stage& stage = diagnosis.final_stage;
-    if (is_below(options_.finished, stage.estimate, data_)) {
+    if (is_below(enough(), stage.estimate, data_)) {
       return;
     }
     const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
     if (open.parameters.size() == stage.parameters.size()) {
       return;
     }
-    const Stage fitted = with_fresh_states(fit_own(open));
+    const Stage fitted = fit_own(open);
     if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
       take("own parameters fitted", fitted, diagnosis);
     }
@@ -179,9 +182,14 @@ class Diagnoser {
 
   /// A rung, and the values that it gives to what is named.
   void take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const {
+    diagnosis.ladder.push_back({name, stage, part_});
+    replace_last(stage, diagnosis);
+  }
+
+  void replace_last(const Stage& stage, Diagnosis& diagnosis) const {
     set_values(stage, data_, diagnosis.accepted);
     diagnosis.final_stage = stage;
-    diagnosis.ladder.push_back({name, stage, part_});
+    diagnosis.ladder.back().stage = stage;
   }
 
   Stage fit_own(const Stage& open) const {

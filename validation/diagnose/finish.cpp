@@ -121,19 +121,18 @@ void take_open_values(const Data& all, Diagnosis& diagnosis) {
 }
 
 void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis) {
-  const double before = judged(diagnosis.bare().stage.estimate, data);
   const double after = judged(diagnosis.final_stage.estimate, data);
+  if (diagnosis.accepted.empty()) {
+    // The first rungs may be of shorter parts of the windows, on which nothing was missing yet.
+    diagnosis.verdict = after < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
+    diagnosis.unexplained_share = diagnosis.verdict == Verdict::unexplained ? 1.0 : 0.0;
+    return;
+  }
+  const double before = judged(diagnosis.bare().stage.estimate, data);
   const double excess = before * before - 1.0;
   diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
-  if (diagnosis.accepted.empty()) {
-    diagnosis.verdict = before < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
-  } else {
-    // Names that leave the error far above the floor are a part of the answer at best.
-    diagnosis.verdict = after < options.finished ? Verdict::missing : Verdict::unexplained;
-  }
-  if (diagnosis.verdict == Verdict::nothing_missing) {
-    diagnosis.unexplained_share = 0.0;
-  }
+  // Names that leave the error far above the floor are a part of the answer at best.
+  diagnosis.verdict = after < options.finished ? Verdict::missing : Verdict::unexplained;
 }
 
 }  // namespace plumbline::validation

@@ -83,6 +83,7 @@ struct Reduced {
   Eigen::VectorXd square;   ///< sse by channel
   Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta
+  Eigen::MatrixXd x_H;      ///< J'J of the initial state, with what is known of it: x_H x_shift = J'r
   /// J with the initial state projected out, summed over each channel's samples; parameters x channels.
   Eigen::MatrixXd channel_slopes;
 };

@@ -1,11 +1,42 @@
 #include "validation/predict/initial_states.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 namespace plumbline::validation {
+namespace {
+
+/// Marquardt's damping of one window's steps: none until one fails. It turns a step away from what the window
+/// hardly tells, which is where a straight line leads astray first; a mere shortening does not.
+class StateDamping {
+ public:
+  bool is_at_end() const { return value_ > kMost; }
+  void after(bool better) {
+    if (better) {
+      value_ = value_ > kFirst ? value_ / kFactor : 0.0;
+    } else {
+      value_ = std::max(kFactor * value_, kFirst);
+    }
+  }
+  /// (H + damping diag(H)) step = H shift.
+  Eigen::VectorXd step(const Reduced& one) const {
+    if (value_ == 0.0) {
+      return one.x_shift;
+    }
+    Eigen::MatrixXd H = one.x_H;
+    H.diagonal() *= 1.0 + value_;
+    return H.ldlt().solve(one.x_H * one.x_shift);
+  }
+
+ private:
+  static constexpr double kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
+  double value_ = 0.0;
+};
+
+}  // namespace
 
 std::vector<int> curved(const std::vector<Reduced>& reduced) {
   std::vector<int> some;
@@ -76,12 +107,11 @@ std::vector<Reduced> InitialStates::reduce_or_begin_anew(Point& point) {
 
 void InitialStates::settle(std::vector<int> open, const Settling& settling, Point& point,
                            std::vector<Reduced>& reduced) {
-  constexpr double kShortest = 0.01;
-  std::vector<double> share(reduced.size(), 1.0);  // of the step that is tried
+  std::vector<StateDamping> damping(reduced.size());
   for (int i = 0; i < settling.steps; ++i) {
     const auto is_done = [&](int w) {
       const auto at = static_cast<std::size_t>(w);
-      return is_settled(reduced[at], settling) || share[at] < kShortest;
+      return is_settled(reduced[at], settling) || damping[at].is_at_end();
     };
     open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
     if (open.empty()) {
@@ -90,13 +120,13 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
     Point next = point;
     for (const int w : open) {
       const auto at = static_cast<std::size_t>(w);
-      next.x0[at] += share[at] * reduced[at].x_shift;
+      next.x0[at] += damping[at].step(reduced[at]);
     }
     const std::vector<Reduced> now = reduce_those_that_run(open, next);
     for (std::size_t k = 0; k < open.size(); ++k) {
       const auto at = static_cast<std::size_t>(open[k]);
       const bool better = now[k].raw_sse < reduced[at].raw_sse;
-      share[at] = better ? std::min(1.0, 2.0 * share[at]) : 0.3 * share[at];
+      damping[at].after(better);
       if (better) {
         reduced[at] = now[k];
         point.x0[at] = next.x0[at];
