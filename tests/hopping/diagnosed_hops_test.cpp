@@ -83,7 +83,7 @@ TEST(DiagnosedHops, OtherNumbersAreNoMissingEffectOnTheBeginnings) {
   EXPECT_TRUE(diagnosis.interrupted);
   ASSERT_EQ(diagnosis.ladder.size(), 2U);
   EXPECT_LT(diagnosis.ladder.front().part, 1.0);
-  EXPECT_GT(diagnosis.ladder.front().held_out(), 5.0);
+  EXPECT_GT(diagnosis.ladder.front().held_out(), 1.5);
   EXPECT_LT(diagnosis.ladder.back().held_out(), 1.2);
   EXPECT_TRUE(diagnosis.accepted.empty());
 }

@@ -9,31 +9,34 @@
 namespace plumbline::validation {
 namespace {
 
-/// Marquardt's damping of one window's steps: none until one fails. It turns a step away from what the window
-/// hardly tells, which is where a straight line leads astray first; a mere shortening does not.
-class StateDamping {
+/// The steps of one window. One that made it worse is damped after Marquardt, which turns it away from what
+/// the window hardly tells, where a straight line leads astray first; or merely shortened.
+class StateSteps {
  public:
-  bool is_at_end() const { return value_ > kMost; }
+  explicit StateSteps(bool straight) : straight_(straight) {}
+  bool is_at_end() const { return straight_ ? share_ < kShortest : damping_ > kMost; }
   void after(bool better) {
+    share_ = better ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
     if (better) {
-      value_ = value_ > kFirst ? value_ / kFactor : 0.0;
+      damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
     } else {
-      value_ = std::max(kFactor * value_, kFirst);
+      damping_ = std::max(kFactor * damping_, kFirst);
     }
   }
-  /// (H + damping diag(H)) step = H shift.
+  /// share * shift, or (H + damping diag(H)) step = H shift.
   Eigen::VectorXd step(const Reduced& one) const {
-    if (value_ == 0.0) {
-      return one.x_shift;
+    if (straight_ || damping_ == 0.0) {
+      return (straight_ ? share_ : 1.0) * one.x_shift;
     }
     Eigen::MatrixXd H = one.x_H;
-    H.diagonal() *= 1.0 + value_;
+    H.diagonal() *= 1.0 + damping_;
     return H.ldlt().solve(one.x_H * one.x_shift);
   }
 
  private:
-  static constexpr double kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
-  double value_ = 0.0;
+  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
+  bool straight_;
+  double share_ = 1.0, damping_ = 0.0;
 };
 
 }  // namespace
@@ -107,11 +110,11 @@ std::vector<Reduced> InitialStates::reduce_or_begin_anew(Point& point) {
 
 void InitialStates::settle(std::vector<int> open, const Settling& settling, Point& point,
                            std::vector<Reduced>& reduced) {
-  std::vector<StateDamping> damping(reduced.size());
+  std::vector<StateSteps> steps(reduced.size(), StateSteps(settling.straight));
   for (int i = 0; i < settling.steps; ++i) {
     const auto is_done = [&](int w) {
       const auto at = static_cast<std::size_t>(w);
-      return is_settled(reduced[at], settling) || damping[at].is_at_end();
+      return is_settled(reduced[at], settling) || steps[at].is_at_end();
     };
     open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
     if (open.empty()) {
@@ -120,13 +123,13 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
     Point next = point;
     for (const int w : open) {
       const auto at = static_cast<std::size_t>(w);
-      next.x0[at] += damping[at].step(reduced[at]);
+      next.x0[at] += steps[at].step(reduced[at]);
     }
     const std::vector<Reduced> now = reduce_those_that_run(open, next);
     for (std::size_t k = 0; k < open.size(); ++k) {
       const auto at = static_cast<std::size_t>(open[k]);
       const bool better = now[k].raw_sse < reduced[at].raw_sse;
-      damping[at].after(better);
+      steps[at].after(better);
       if (better) {
         reduced[at] = now[k];
         point.x0[at] = next.x0[at];

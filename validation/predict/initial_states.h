@@ -21,6 +21,8 @@ constexpr double kFits = 1.2;
 struct Settling {
   int steps = 6;
   double much = 0.05;  ///< share of the cost: what the next step promises to take is less
+  /// A step that made the window worse is shortened, not turned: for one that begins where it ended before.
+  bool straight = false;
 };
 
 constexpr Settling kRoughly{24, 1e-2};

@@ -33,7 +33,7 @@ void try_on(const PredictorPool& pool, const std::vector<FreeParameter>& paramet
   InitialStates states(part, parameters, {});
   states.begin(at);
   std::vector<Reduced> reduced = states.reduce_some(open, at);
-  states.settle(open, kRoughly, at, reduced);
+  states.settle(open, {kRoughly.steps, kRoughly.much, true}, at, reduced);
   keep(data, shares, at, reduced, open, grown);
 }
 
