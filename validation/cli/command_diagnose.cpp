@@ -199,7 +199,7 @@ void save_model(const Diagnosis& diagnosis, const model::Model& given, const std
   std::vector<model::AddedEffect> added;
   std::vector<model::NewValue> values;
   validation::Stage stage = diagnosis.final_stage;
-  stage.model = validation::with_values(stage.model, stage.parameters, stage.estimate.theta);
+  stage.model = validation::fitted_model(stage);
   const std::size_t own = given.effects.size();
   for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
     const model::EffectUse& use = stage.model.effects[e];

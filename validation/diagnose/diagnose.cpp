@@ -59,7 +59,9 @@ class Diagnoser {
   /// What was named on shorter beginnings, on these; and what else is missing here.
   void go_on(Diagnosis& diagnosis) {
     progress_("longer parts of the windows", 0.0);
-    take("the same further on", fitted_anew(diagnosis.final_stage, data_, x0_), diagnosis);
+    const Stage& before = diagnosis.final_stage;
+    take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
+         diagnosis);
     open_own_numbers(diagnosis);
     if (!is_below(options_.finished, diagnosis.final_stage.estimate, data_)) {
       replace_last(with_fresh_states(diagnosis.final_stage), diagnosis);
@@ -84,7 +86,7 @@ class Diagnoser {
   /// Fitted once more from initial states that were searched anew with the values as they are now: those that
   /// went along with the values may have stayed behind in a minimum of their own. The better of the two.
   Stage with_fresh_states(const Stage& fitted) const {
-    Stage fresh{with_values(fitted.model, fitted.parameters, fitted.estimate.theta), fitted.parameters, {}};
+    Stage fresh{fitted_model(fitted), fitted.parameters, {}};
     PredictorPool pool(fresh.model, data_);
     const Estimate states = estimate_states(pool);
     fresh.estimate = gauss_newton(pool, fresh.parameters, fitted.estimate.theta, states.x0, {10, 1e-4});
@@ -243,16 +245,12 @@ class Diagnoser {
   Tried first_;
 };
 
-model::Model model_of(const Stage& stage) {
-  return with_values(stage.model, stage.parameters, stage.estimate.theta);
-}
-
 /// On what part of the windows to go on after `part`: as far as the stage can be followed; where it is at the
 /// floor at least one step.
 double further(const Stage& stage, const Data& beginnings, const Data& data, double part,
                const DiagnoseOptions& options) {
   const double least = is_below(options.finished, stage.estimate, beginnings) ? longer_part(part) : part;
-  return std::max(least, reach(model_of(stage), data));
+  return std::max(least, reach(fitted_model(stage), data));
 }
 
 /// On the beginnings of the windows over which the model can be followed, and from there on to the whole.
@@ -260,12 +258,15 @@ double further(const Stage& stage, const Data& beginnings, const Data& data, dou
 /// which it ended.
 Data diagnose_by_parts(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                        const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
-  progress("how far the model can be followed", 0.0);
+  const auto say_how_far = [&] { progress("how far the model can be followed", 0.0); };
+  say_how_far();
   double part = reach(model, data);
   for (bool first = true;; first = false) {
-    const Followed followed = follow(first ? model : model_of(diagnosis.final_stage), data.beginnings(part));
+    const Followed followed =
+        follow(first ? model : fitted_model(diagnosis.final_stage), data.beginnings(part));
     Diagnoser diagnoser(catalogue, followed, part, options, progress);
     first ? diagnoser.run(model, diagnosis) : diagnoser.go_on(diagnosis);
+    say_how_far();
     const double longer =
         part < 1.0 ? further(diagnosis.final_stage, followed.data, data, part, options) : part;
     if (longer <= part) {
@@ -287,7 +288,7 @@ void finish(const Data& data, const Data& tried, const DiagnoseOptions& options,
   const double part = diagnosis.ladder.back().part;
   const bool is_some = tried.windows.size() < data.windows.size();
   const Data beginnings = data.beginnings(part);
-  const Data all = is_some ? follow(model_of(diagnosis.final_stage), beginnings).data : tried;
+  const Data all = is_some ? follow(fitted_model(diagnosis.final_stage), beginnings).data : tried;
   diagnosis.windows = all.windows.size();
   for (std::size_t w = 0; w < all.windows.size(); ++w) {
     diagnosis.cut_windows += all.windows[w].count < beginnings.windows[w].count ? 1 : 0;
@@ -333,7 +334,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   try {
     const Data tried = diagnose_by_parts(model, catalogue, some, options, progress, diagnosis);
     finish(data, tried, options, progress, diagnosis);
-    mark_same_forces(model_of(diagnosis.final_stage), catalogue, diagnosis.accepted);
+    mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

@@ -55,7 +55,7 @@ struct OpenNumbers {
 bool is_own(const FreeParameter& parameter) { return std::isfinite(parameter.deviation); }
 
 OpenNumbers open_numbers(const Stage& stage, double width) {
-  OpenNumbers open{with_values(stage.model, stage.parameters, stage.estimate.theta), stage.parameters, {}};
+  OpenNumbers open{fitted_model(stage), stage.parameters, {}};
   const auto first_own = std::stable_partition(open.parameters.begin(), open.parameters.end(),
                                                [](const FreeParameter& one) { return !is_own(one); });
   if (first_own == open.parameters.end()) {
@@ -143,7 +143,7 @@ std::vector<FreeParameter> noticeable_parameters(PredictorPool& pool,
 }
 
 Stage with_open_numbers(const Stage& stage, std::size_t named, double width, const Data& data) {
-  const model::Model given = with_values(stage.model, stage.parameters, stage.estimate.theta);
+  const model::Model given = fitted_model(stage);
   const bool has_own = std::any_of(stage.parameters.begin(), stage.parameters.end(), is_own);
   Stage open{has_own ? given : with_stated_errors(given, named), {}, stage.estimate};
   const auto first = static_cast<int>(given.effects.size() - named);

@@ -150,6 +150,10 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
 
 }  // namespace
 
+model::Model fitted_model(const Stage& stage) {
+  return with_values(stage.model, stage.parameters, stage.estimate.theta);
+}
+
 Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0) {
   PredictorPool pool(stage.model, data);
   stage.estimate =
@@ -158,7 +162,7 @@ Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::Vector
 }
 
 Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values) {
-  Extended extended{with_values(stage.model, stage.parameters, stage.estimate.theta), stage.parameters, {}};
+  Extended extended{fitted_model(stage), stage.parameters, {}};
   extended.model.effects.push_back(make_use(candidate, values));
   const bool angular = stage.model.place_is_angular(candidate.place, candidate.at);
   for (FreeParameter& parameter :

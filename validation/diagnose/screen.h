@@ -17,6 +17,9 @@ struct Stage {
   Estimate estimate;
 };
 
+/// The stage's model with the values that its fit ended at.
+model::Model fitted_model(const Stage& stage);
+
 /// The stage with its parameters fitted anew from its model's values, and initial states from x0 or, where
 /// that is empty, from the measurements.
 Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0 = {});

@@ -173,7 +173,7 @@ void add_plates(const Stage& stage, const Data& data, PredictorPool& pool, int t
 }  // namespace
 
 std::vector<UnexplainedForce> unexplained_forces(const Stage& stage, const Data& data) {
-  const model::Model fitted = with_values(stage.model, stage.parameters, stage.estimate.theta);
+  const model::Model fitted = fitted_model(stage);
   PredictorPool pool(fitted, data);
   std::vector<UnexplainedForce> all;
   for (std::size_t t = 0; t < data.trials.size(); ++t) {

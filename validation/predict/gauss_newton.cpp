@@ -75,10 +75,16 @@ Step step_of(const Equations& sum, const std::vector<Reduced>& reduced, const Ro
   return step;
 }
 
-/// Share of the cost that the linearised windows promise to remove.
-double promise_of(const Equations& sum, const Step& step) {
+/// Shares of the cost that the linearised windows promise to remove.
+struct Promise {
+  double parameters;  // by the parameters' step
+  double all;         // with the initial states' own
+};
+
+Promise promise_of(const Equations& sum, const Step& step) {
   const double gain = 2.0 * sum.g.dot(step.delta) - step.delta.dot(sum.H * step.delta);
-  return (gain + sum.raw - sum.left) / std::max(sum.left, 1e-300);
+  const double left = std::max(sum.left, 1e-300);
+  return {gain / left, (gain + sum.raw - sum.left) / left};
 }
 
 /// Marquardt's damping: none until a step fails, then as much as was needed; less once the same has been
@@ -188,9 +194,12 @@ class Search {
   bool step() {
     const Equations sum = add_up(data_, reduced_, prior(parameters_, units_, here_.theta));
     const Room bounds = room(parameters_, here_.theta, units_);
-    if (promise_of(sum, step_of(sum, reduced_, bounds, 0.0)) < options_.tolerance) {
+    const Promise promise = promise_of(sum, step_of(sum, reduced_, bounds, 0.0));
+    if (promise.all < options_.tolerance) {
       return false;
     }
+    // Damping shortens the parameters' step alone: where that promises nothing, it changes nothing.
+    const bool can_damp = promise.parameters >= options_.tolerance;
     while (true) {
       const double times =
           go_if_better(moved(here_, step_of(sum, reduced_, bounds, damping_.value()), parameters_, units_));
@@ -198,7 +207,7 @@ class Search {
         damping_.after_success();
         return true;
       }
-      if (!damping_.after_failure(times)) {
+      if (!can_damp || !damping_.after_failure(times)) {
         return false;
       }
     }

@@ -49,7 +49,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       out.sse = out.raw_sse - Qtr.squaredNorm();
       out.square = predictor.squares(window, lin.r - Q.topRows(rows) * Qtr);
       out.x_shift = R.solve(Qtr);
-      out.x_H.noalias() = X.transpose() * X;
+      out.x_H = R.transpose() * R.toDenseMatrix();  // X'X
       out.H.setZero(lin.Jp.cols(), lin.Jp.cols());
       out.g.setZero(lin.Jp.cols());
       out.x_slope.setZero(nx, lin.Jp.cols());

@@ -19,10 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-model::Model fitted(const Stage& stage) {
-  return with_values(stage.model, stage.parameters, stage.estimate.theta);
-}
-
 /// Without the effects that change nothing: openings for numbers that stayed as stated.
 model::Model without_null_effects(model::Model model) {
   const auto is_null = [](const model::EffectUse& use) { return use.law->is_null(use.numbers().data()); };
@@ -46,7 +42,7 @@ std::vector<Drawn> drawn_models(const ReportContent& content, const Data& data, 
   std::vector<Drawn> drawn;
   drawn.reserve(rungs.size());
   for (const Rung* rung : rungs) {
-    drawn.push_back({&rung->stage, compare(fitted(rung->stage), data, rung->stage.estimate),
+    drawn.push_back({&rung->stage, compare(fitted_model(rung->stage), data, rung->stage.estimate),
                      predicted_traces(rung->stage, data, progress)});
   }
   return drawn;
@@ -78,7 +74,7 @@ json whole_json(const ReportContent& content, const Data& data, const Progress& 
   for (const Rung& rung : content.ladder) {
     progress("whole trials: " + rung.name, 0.1);
     json trials = json::array();
-    for (const WholeTrial& trial : whole_trials(fitted(rung.stage), data)) {
+    for (const WholeTrial& trial : whole_trials(fitted_model(rung.stage), data)) {
       trials.push_back(to_json(trial));
     }
     list.push_back(trials);
@@ -126,7 +122,7 @@ std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, c
     }
     progress("whole windows: " + rung.name, 0.0);
     const Eigen::VectorXd theta = rung.stage.estimate.theta;
-    PredictorPool pool(fitted(rung.stage), data);
+    PredictorPool pool(fitted_model(rung.stage), data);
     rung.stage.estimate = estimate_states(pool);
     rung.stage.estimate.theta = theta;
     rung.part = 1.0;
@@ -150,7 +146,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
               {"diagnosis", content.diagnosis},
               {"unexplained", json::array()},
               {"estimates", nullptr},
-              {"values", model_json(without_null_effects(fitted(last)))},
+              {"values", model_json(without_null_effects(fitted_model(last)))},
               {"repeat", repeat_json(content.repetition, content.given, data.trials)}};
   for (const Rung& rung : content.ladder) {
     report["ladder"].push_back(scores_json(rung, data));
