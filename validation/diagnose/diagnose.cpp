@@ -1,5 +1,7 @@
 #include "validation/diagnose/diagnose.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -58,12 +60,12 @@ class Diagnoser {
 
   /// What was named on shorter beginnings, on these; and what else is missing here.
   void go_on(Diagnosis& diagnosis) {
-    progress_("longer parts of the windows", 0.0);
+    progress_(fmt::format("longer parts of the windows: {:.0f} %", 100.0 * part_), 0.0);
     const Stage& before = diagnosis.final_stage;
     take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
          diagnosis);
     open_own_numbers(diagnosis);
-    if (!is_below(options_.finished, diagnosis.final_stage.estimate, data_)) {
+    if (!is_below(enough(), diagnosis.final_stage.estimate, data_)) {
       replace_last(with_fresh_states(diagnosis.final_stage), diagnosis);
     }
     look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
