@@ -268,9 +268,11 @@ Data diagnose_by_parts(const model::Model& model, const effects::Catalogue& cata
         follow(first ? model : fitted_model(diagnosis.final_stage), data.beginnings(part));
     Diagnoser diagnoser(catalogue, followed, part, options, progress);
     first ? diagnoser.run(model, diagnosis) : diagnoser.go_on(diagnosis);
-    say_how_far();
-    const double longer =
-        part < 1.0 ? further(diagnosis.final_stage, followed.data, data, part, options) : part;
+    double longer = part;
+    if (part < 1.0) {
+      say_how_far();
+      longer = further(diagnosis.final_stage, followed.data, data, part, options);
+    }
     if (longer <= part) {
       if (first && diagnosis.verdict == Verdict::unexplained) {
         look_for_pair(diagnoser.first(), catalogue, followed.data, options, progress, diagnosis);
