@@ -11,6 +11,7 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/finish.h"
+#include "validation/diagnose/own_by_parts.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/revise.h"
@@ -47,10 +48,13 @@ class Diagnoser {
       look(options_.most_effects, diagnosis);
       return;
     }
-    const Rung fitted{"own parameters fitted", fit_own(open), part_};
+    Rung fitted{"own parameters fitted", fit_own(open), part_};
     if (part_ == 1.0) {
       look_with_own_numbers(given, fitted, diagnosis);
       return;
+    }
+    if (!explains_nearly_all(given, fitted)) {
+      fitted.stage = fit_own_by_parts(given.stage, part_, options_.parameter_width, data_);
     }
     if (explains_nearly_all(given, fitted)) {
       restart({given, fitted}, diagnosis);
@@ -198,10 +202,7 @@ class Diagnoser {
 
   Stage fit_own(const Stage& open) const {
     progress_("the model's own parameters", 0.0);
-    PredictorPool pool(open.model, data_);
-    return {open.model, open.parameters,
-            gauss_newton(pool, open.parameters, values_of(open.model, open.parameters), open.estimate.x0,
-                         {10, 1e-4})};
+    return fit_open_numbers(open, data_);
   }
 
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
