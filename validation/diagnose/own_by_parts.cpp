@@ -34,9 +34,10 @@ Stage fit_own_by_parts(const Stage& given, double part, double width, const Data
   try {
     Stage stage{given.model, given.parameters, given.estimate};
     double share = longer_part(0.0);
-    for (; share < part; share = longer_part(share)) {
+    while (share < part) {
       const Followed followed = follow(fitted_model(stage), data.beginnings(share / part));
       stage = fitted_further(stage, width, followed.data, followed.x0);
+      share = longer_part(share);
     }
     return fitted_further(stage, width, data, follow(fitted_model(stage), data).x0);
   } catch (const Stopped&) {
