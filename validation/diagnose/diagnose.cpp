@@ -56,10 +56,7 @@ class Diagnoser {
     if (!explains_nearly_all(given, fitted)) {
       fitted.stage = fit_own_by_parts(given.stage, part_, options_.parameter_width, data_);
     }
-    if (explains_nearly_all(given, fitted)) {
-      restart({given, fitted}, diagnosis);
-    }
-    look(options_.most_effects, diagnosis);
+    look_at_beginnings(given, fitted, diagnosis);
   }
 
   /// What was named on shorter beginnings, on these; and what else is missing here.
@@ -121,6 +118,30 @@ class Diagnoser {
     anew.bare_rungs = ladder.size();
     anew.final_stage = ladder.back().stage;
     diagnosis = std::move(anew);
+  }
+
+  /// Beginnings are too short to tell masses and inertias, which free would stand in for a part of anything:
+  /// with the numbers as stated, unless others explain nearly all or nothing explains the rest.
+  void look_at_beginnings(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
+    if (explains_nearly_all(given, fitted)) {
+      restart({given, fitted}, diagnosis);
+      look(options_.most_effects, diagnosis);
+      return;
+    }
+    look(options_.most_effects, diagnosis);
+    if (diagnosis.verdict != Verdict::unexplained) {
+      return;
+    }
+    Tried first = std::move(first_);
+    Diagnosis other;
+    restart({given, fitted}, other);
+    look(options_.most_effects, other);
+    if (judged(other.final_stage.estimate, data_) <
+        (1.0 - options_.material) * judged(diagnosis.final_stage.estimate, data_)) {
+      diagnosis = std::move(other);
+    } else {
+      first_ = std::move(first);
+    }
   }
 
   /// With the numbers as stated first, because an answer with them says more. But where other numbers alone
@@ -253,7 +274,7 @@ class Diagnoser {
 double further(const Stage& stage, const Data& beginnings, const Data& data, double part,
                const DiagnoseOptions& options) {
   const double least = is_below(options.finished, stage.estimate, beginnings) ? longer_part(part) : part;
-  return std::max(least, reach(fitted_model(stage), data));
+  return std::max(least, reach_further(fitted_model(stage), data, part, stage.estimate.x0));
 }
 
 /// On the beginnings of the windows over which the model can be followed, and from there on to the whole.

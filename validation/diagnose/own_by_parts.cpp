@@ -9,17 +9,12 @@
 namespace plumbline::validation {
 namespace {
 
-Estimate fit(const model::Model& model, const std::vector<FreeParameter>& parameters,
-             const std::vector<Eigen::VectorXd>& x0, const Data& data) {
-  PredictorPool pool(model, data);
-  return gauss_newton(pool, parameters, values_of(model, parameters), x0, {10, 1e-4});
-}
+constexpr double kTolerance = 1e-4;
 
 /// The stage's values on other beginnings of the windows, and the numbers that can be told there beside them.
 Stage fitted_further(const Stage& before, double width, const Data& data,
                      const std::vector<Eigen::VectorXd>& x0) {
-  Stage stage{fitted_model(before), before.parameters, {}};
-  stage.estimate = fit(stage.model, stage.parameters, x0, data);
+  const Stage stage = fitted_anew({fitted_model(before), before.parameters, {}}, data, x0, kTolerance);
   const Stage open = with_open_numbers(stage, 0, width, data);
   return open.parameters.size() > stage.parameters.size() ? fit_open_numbers(open, data) : stage;
 }
@@ -27,7 +22,7 @@ Stage fitted_further(const Stage& before, double width, const Data& data,
 }  // namespace
 
 Stage fit_open_numbers(const Stage& open, const Data& data) {
-  return {open.model, open.parameters, fit(open.model, open.parameters, open.estimate.x0, data)};
+  return fitted_anew(open, data, open.estimate.x0, kTolerance);
 }
 
 Stage fit_own_by_parts(const Stage& given, double part, double width, const Data& data) {

@@ -154,10 +154,10 @@ model::Model fitted_model(const Stage& stage) {
   return with_values(stage.model, stage.parameters, stage.estimate.theta);
 }
 
-Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0) {
+Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0, double tolerance) {
   PredictorPool pool(stage.model, data);
   stage.estimate =
-      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, 1e-3});
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, tolerance});
   return stage;
 }
 

@@ -21,8 +21,9 @@ struct Stage {
 model::Model fitted_model(const Stage& stage);
 
 /// The stage with its parameters fitted anew from its model's values, and initial states from x0 or, where
-/// that is empty, from the measurements.
-Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0 = {});
+/// that is empty, from the measurements. The fit ends where the cost changes by less than `tolerance` of it.
+Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0 = {},
+                  double tolerance = 1e-3);
 
 /// A candidate with the values from which it is tried, and what the linearised windows promise.
 struct Hypothesis {

@@ -39,6 +39,19 @@ class StateSteps {
   double share_ = 1.0, damping_ = 0.0;
 };
 
+/// Squared residuals of a window that begins at x0, and of what is known of x0; r are those of the window.
+/// Infinite where it cannot be integrated from there.
+double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0, Eigen::VectorXd& r) {
+  try {
+    r = predictor.residual(window, x0);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return r.squaredNorm() + predictor.anchor(window, x0, r).r.squaredNorm();
+}
+
 }  // namespace
 
 std::vector<int> curved(const std::vector<Reduced>& reduced) {
@@ -71,17 +84,41 @@ std::vector<Reduced> InitialStates::reduce_at(const Point& point) {
   return reduce(pool_, pool_.data().all_windows(), parameters_, point.theta, point.x0, units_);
 }
 
+Reduced InitialStates::reduce_if_it_runs(int window, const Point& point) {
+  try {
+    return reduce(pool_, {window}, parameters_, point.theta, point.x0, units_).front();
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    Reduced none;
+    none.raw_sse = none.sse = std::numeric_limits<double>::infinity();
+    return none;
+  }
+}
+
 std::vector<Reduced> InitialStates::reduce_those_that_run(const std::vector<int>& windows,
                                                           const Point& point) {
   std::vector<Reduced> all(windows.size());
   parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    try {
-      all[at] = reduce(pool_, {windows[at]}, parameters_, point.theta, point.x0, units_).front();
-    } catch (const Stopped&) {
-      throw;
-    } catch (const std::runtime_error&) {
-      all[at].raw_sse = all[at].sse = std::numeric_limits<double>::infinity();
+    all[at] = reduce_if_it_runs(windows[at], point);
+  });
+  return all;
+}
+
+std::vector<Reduced> InitialStates::reduce_those_better(const std::vector<int>& windows, const Point& point,
+                                                        const std::vector<Reduced>& than) {
+  std::vector<Reduced> all(windows.size());
+  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    const int w = windows[at];
+    const auto place = static_cast<std::size_t>(w);
+    pool_.with(w, parameters_, point.theta, [&](Predictor& predictor) {
+      Eigen::VectorXd r;
+      all[at].raw_sse = cost(predictor, pool_.data().windows[place], point.x0[place], r);
+    });
+    if (!(than[place].raw_sse <= all[at].raw_sse)) {
+      all[at] = reduce_if_it_runs(w, point);
     }
   });
   return all;
@@ -125,7 +162,7 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
       const auto at = static_cast<std::size_t>(w);
       next.x0[at] += steps[at].step(reduced[at]);
     }
-    const std::vector<Reduced> now = reduce_those_that_run(open, next);
+    const std::vector<Reduced> now = reduce_those_better(open, next, reduced);
     for (std::size_t k = 0; k < open.size(); ++k) {
       const auto at = static_cast<std::size_t>(open[k]);
       const bool better = now[k].raw_sse < reduced[at].raw_sse;
@@ -185,7 +222,7 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
       const auto at = static_cast<std::size_t>(w);
       shorter.x0[at] = 0.5 * (shorter.x0[at] + from.x0[at]);
     }
-    const std::vector<Reduced> now = reduce_those_that_run(worse, shorter);
+    const std::vector<Reduced> now = reduce_those_better(worse, shorter, after);
     for (std::size_t k = 0; k < worse.size(); ++k) {
       const auto at = static_cast<std::size_t>(worse[k]);
       in_vain[at] = now[k].raw_sse < kHelps * after[at].raw_sse ? 0 : in_vain[at] + 1;
@@ -209,20 +246,12 @@ void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) 
     }
     pool_.with(w, parameters_, point.theta, [&](Predictor& predictor) {
       const Window& window = pool_.data().windows[i];
-      const auto cost_at = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
-        try {
-          r = predictor.residual(window, x);
-        } catch (const std::runtime_error&) {
-          return std::numeric_limits<double>::infinity();
-        }
-        return r.squaredNorm() + predictor.anchor(window, x, r).r.squaredNorm();
-      };
       Eigen::VectorXd r;
-      one.sse = cost_at(there, r);
+      one.sse = cost(predictor, window, there, r);
       if (one.sse < one.raw_sse) {
         point.x0[i] = there;
       } else {
-        one.sse = cost_at(point.x0[i], r);
+        one.sse = cost(predictor, window, point.x0[i], r);
       }
       one.square = predictor.squares(window, r);
     });

@@ -64,7 +64,12 @@ class InitialStates {
   void take_last_step(Point& point, std::vector<Reduced>& reduced);
 
  private:
+  Reduced reduce_if_it_runs(int window, const Point& point);
   std::vector<Reduced> reduce_those_that_run(const std::vector<int>& windows, const Point& point);
+  /// The equations of those windows that are better at `point` than there; of the others raw_sse alone, since
+  /// the slopes are most of the work.
+  std::vector<Reduced> reduce_those_better(const std::vector<int>& windows, const Point& point,
+                                           const std::vector<Reduced>& than);
 
   PredictorPool& pool_;
   const std::vector<FreeParameter>& parameters_;

@@ -103,21 +103,23 @@ Shares shares_that_can_be_searched(const model::Model& model, const Data& data) 
   return {std::move(shares), std::move(at.x0)};
 }
 
-double reach_of(const model::Model& model, const Data& data) {
+/// The longest of the parts beyond `part` that can be followed, one after the other from where `at` begins;
+/// `part` if none can.
+double reach_by_steps(const model::Model& model, const Data& data, double part, Point at) {
   constexpr double kMost = 0.5;
+  double reached = part;
+  while (reached < 1.0 && can_be_followed(model, data.beginnings(longer_part(reached)), at)) {
+    reached = longer_part(reached);
+  }
+  return kMost <= reached && reached < 1.0 && can_be_followed_by_parts(model, data) ? 1.0 : reached;
+}
+
+double reach_of(const model::Model& model, const Data& data) {
   Point straight;
   if (!is_any_curved(model, data) || can_be_followed(model, data, straight)) {
     return 1.0;
   }
-  Point at;
-  double reached = kTried.front();
-  for (const double share : kTried) {
-    if (!can_be_followed(model, data.beginnings(share), at)) {
-      break;
-    }
-    reached = share;
-  }
-  return reached >= kMost && can_be_followed_by_parts(model, data) ? 1.0 : reached;
+  return std::max(kTried.front(), reach_by_steps(model, data, 0.0, {}));
 }
 
 }  // namespace
@@ -143,6 +145,16 @@ double longer_part(double share) {
 double reach(const model::Model& model, const Data& data) {
   const Record record =
       kept(data, key_of("reach", model, data), [&] { return Record().add(reach_of(model, data)); });
+  return RecordReader(record).number();
+}
+
+double reach_further(const model::Model& model, const Data& data, double part,
+                     const std::vector<Eigen::VectorXd>& x0) {
+  ResultKey key = key_of("reach_further", model, data);
+  key.numbers.add(part).add(x0);
+  const Record record = kept(data, key, [&] {
+    return Record().add(reach_by_steps(model, data, part, {{}, x0}));
+  });
   return RecordReader(record).number();
 }
 

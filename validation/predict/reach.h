@@ -15,6 +15,11 @@ namespace plumbline::validation {
 /// found by their parts (states_by_parts.h) are not lost. 1 where windows are linear in where they begin.
 double reach(const model::Model& model, const Data& data);
 
+/// The same from where it is known: `part` of the windows' length has been followed, from the initial states
+/// x0. At least `part`.
+double reach_further(const model::Model& model, const Data& data, double part,
+                     const std::vector<Eigen::VectorXd>& x0);
+
 /// Windows as far as a model can be followed, and where they begin.
 struct Followed {
   Data data;
