@@ -225,4 +225,14 @@ std::vector<Row> expected_hopper_rows(const model::Model& model, const effects::
   return expected;
 }
 
+Case case_of(const std::string& name) {
+  static const std::vector<Case> cases = all_cases();
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&](const Case& one) { return one.name == name; });
+  if (found == cases.end()) {
+    throw std::runtime_error("there is no case " + name);
+  }
+  return *found;
+}
+
 }  // namespace plumbline::battery

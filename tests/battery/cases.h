@@ -71,6 +71,9 @@ std::vector<std::string> robots_of_rig(const std::string& rig);
 /// All cases in the order of the tables.
 std::vector<Case> all_cases();
 
+/// The one of this name among them. Throws std::runtime_error where there is none.
+Case case_of(const std::string& name);
+
 /// Pairs (effect, place) that belong into the leg bench's table: every law of the catalogue at every place
 /// where it can sit, but a law that sits at motors is left out at coordinates that are rigidly a motor's, and
 /// bodies that the bench hides behind rigid ratios (or that do not move) are left out.

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
@@ -31,14 +29,12 @@ struct Beginnings {
 Beginnings beginnings(std::size_t most_windows) {
   RunOptions options;
   options.seed = kSeed;
-  const std::vector<Case> cases = all_cases();
-  const auto one =
-      std::find_if(cases.begin(), cases.end(), [](const Case& each) { return each.name == "mabel/none/2"; });
+  const Case one = case_of("mabel/none/2");
   const model::Model model =
-      model::read_model(PLUMBLINE_ROOT "/" + robot_of(*one).model, model::known_effects());
-  Draw draw(*one, kSeed);
-  const Truth truth = truth_of(*one, model, draw, options);
-  const Data hops(trials_of(*one, model, truth, draw, options), {});
+      model::read_model(PLUMBLINE_ROOT "/" + robot_of(one).model, model::known_effects());
+  Draw draw(one, kSeed);
+  const Truth truth = truth_of(one, model, draw, options);
+  const Data hops(trials_of(one, model, truth, draw, options), {});
   const validation::Followed followed =
       validation::follow(model, hops.thinned(most_windows).beginnings(kPart));
   validation::PredictorPool pool(model, followed.data);

@@ -1,6 +1,5 @@
 #include "tests/battery/result_json.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,16 +25,6 @@ nlohmann::json recovered_json(const Result& r) {
                     {"inside", one.is_inside()}});
   }
   return list;
-}
-
-Case case_of(const std::string& name) {
-  static const std::vector<Case> cases = all_cases();
-  const auto found =
-      std::find_if(cases.begin(), cases.end(), [&](const Case& one) { return one.name == name; });
-  if (found == cases.end()) {
-    throw std::runtime_error("there is no case " + name);
-  }
-  return *found;
 }
 
 }  // namespace

@@ -35,9 +35,7 @@ class Diagnoser {
         progress_(progress) {}
 
   /// With the model's own numbers exactly as stated, and with them free within what is stated of them: the
-  /// first where that gives an answer and the data do not speak for other numbers. On beginnings as stated
-  /// unless other numbers explain nearly all: too short to tell masses and inertias, they would leave them
-  /// free to stand in for a part of anything.
+  /// first where that gives an answer and the data do not speak for other numbers.
   void run(const model::Model& model, Diagnosis& diagnosis) {
     start(model, diagnosis);
     const Rung given = diagnosis.ladder.front();
