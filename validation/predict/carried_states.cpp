@@ -1,0 +1,42 @@
+#include "validation/predict/carried_states.h"
+
+#include <algorithm>
+#include <string>
+
+namespace plumbline::validation {
+namespace {
+
+std::vector<std::string> names(PredictorPool& pool, int window) {
+  std::vector<std::string> found;
+  pool.with(window, {}, {}, [&](Predictor& predictor) { found = predictor.plant().state_names(); });
+  return found;
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> carried_states(const model::Model& from, const model::Model& to,
+                                            const Data& data, const std::vector<Eigen::VectorXd>& x0) {
+  PredictorPool before(from, data);
+  PredictorPool behind(to, data);
+  std::vector<Eigen::VectorXd> carried(x0.size());
+  parallel_for(static_cast<int>(x0.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    const std::vector<std::string> known = names(before, w);
+    const std::vector<std::string> wanted = names(behind, w);
+    if (known == wanted) {
+      carried[i] = x0[i];
+      return;
+    }
+    behind.with(w, {}, {},
+                [&](Predictor& predictor) { carried[i] = predictor.initial_state(data.windows[i]); });
+    for (std::size_t s = 0; s < wanted.size(); ++s) {
+      const auto at = std::find(known.begin(), known.end(), wanted[s]);
+      if (at != known.end()) {
+        carried[i][static_cast<Eigen::Index>(s)] = x0[i][at - known.begin()];
+      }
+    }
+  });
+  return carried;
+}
+
+}  // namespace plumbline::validation
