@@ -27,7 +27,14 @@ class BySegments {
   }
 
   Followed run(const model::Model& model, Followed followed) {
-    Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+    if (!Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_)) {
+      diagnosis_ = {};
+      followed = follow_beginnings(model, data_);
+      Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+      if (!names_more(followed)) {
+        return followed;
+      }
+    }
     for (bool is_new = true; !is_whole(followed);) {
       segments_ = {followed.data, diagnosis_.final_stage.estimate.x0, followed.length};
       const bool explained = is_below(options_.finished, diagnosis_.final_stage.estimate, followed.data);

@@ -58,6 +58,10 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
   take_open_values(all, diagnosis);
   set_values(diagnosis.final_stage, all, diagnosis.accepted);
   conclude(all, options, diagnosis);
+  // What could not be followed has not been explained.
+  if (diagnosis.verdict == Verdict::nothing_missing && 4 * diagnosis.cut_windows > diagnosis.windows) {
+    diagnosis.verdict = Verdict::unexplained;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "validation/diagnose/accept.h"
@@ -12,6 +13,7 @@
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/finish.h"
 #include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/promise.h"
 #include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {
@@ -44,13 +46,18 @@ void Diagnoser::run(const model::Model& model, Diagnosis& diagnosis) {
   }
 }
 
-void Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosis) {
+bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosis) {
   start(model, diagnosis);
   const Rung given = diagnosis.ladder.front();
   const Stage open = opened(given.stage);
-  if (!open.parameters.empty()) {
+  if (open.parameters.empty()) {
+    return true;
+  }
+  const bool promising = promises_much(open);
+  if (promising) {
     restart({given, {"own parameters fitted", fit_own(open), length_}}, diagnosis);
   }
+  return promising;
 }
 
 void Diagnoser::further_on(Diagnosis& diagnosis) {
@@ -152,7 +159,7 @@ void Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
     return;
   }
   const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
-  if (open.parameters.size() == stage.parameters.size()) {
+  if (open.parameters.size() == stage.parameters.size() || !promises_much(open)) {
     return;
   }
   const Stage fitted = fit_own(open);
@@ -170,6 +177,23 @@ void Diagnoser::replace_last(const Stage& stage, Diagnosis& diagnosis) const {
   set_values(stage, data_, diagnosis.accepted);
   diagnosis.final_stage = stage;
   diagnosis.ladder.back().stage = stage;
+}
+
+bool Diagnoser::promises_much(const Stage& open) const {
+  constexpr double kMuch = 0.25;
+  const Eigen::VectorXd theta = values_of(open.model, open.parameters);
+  const Eigen::VectorXd units = search_units(open.parameters, theta);
+  const std::vector<int> windows = data_.all_windows();
+  PredictorPool pool(open.model, data_);
+  const std::vector<Reduced> reduced = reduce(pool, windows, open.parameters, theta, open.estimate.x0, units);
+  const Sum train = sum_of(reduced, windows, data_, Role::train);
+  std::vector<Eigen::Index> all(open.parameters.size());
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  const Promise promise =
+      promise_of(train, sum_of(reduced, windows, data_, Role::held_out), all,
+                 prior(open.parameters, units, theta), room(open.parameters, theta, units));
+  const double before = train.sse / train.samples;
+  return before - promise.train > kMuch * (before - 1.0);
 }
 
 Stage Diagnoser::fit_own(const Stage& open) const {

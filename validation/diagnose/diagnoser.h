@@ -18,8 +18,9 @@ class Diagnoser {
   /// On whole windows, with the model's own numbers exactly as stated, and with them free within what is
   /// stated of them: the first where that gives an answer and the data do not speak for other numbers.
   void run(const model::Model& model, Diagnosis& diagnosis);
-  /// On segments, with the numbers free at once: what they tell is weighed anew on longer ones.
-  void begin_on_segments(const model::Model& model, Diagnosis& diagnosis);
+  /// On segments, with the numbers free at once: what they tell is weighed anew on longer ones. False where
+  /// these promise little of what is above the floor: something large is missing, and they stay as stated.
+  bool begin_on_segments(const model::Model& model, Diagnosis& diagnosis);
   /// What was named on other segments, on these.
   void further_on(Diagnosis& diagnosis);
   /// What else is missing here.
@@ -55,6 +56,9 @@ class Diagnoser {
   void take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const;
   void replace_last(const Stage& stage, Diagnosis& diagnosis) const;
   Stage fit_own(const Stage& open) const;
+  /// Do the open numbers promise a good part of what is above the floor? A model that lacks something large
+  /// is not searched for numbers that make up for it.
+  bool promises_much(const Stage& open) const;
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
   static std::vector<std::string> names_of(const std::vector<Finding>& findings);
   bool step(Diagnosis& diagnosis, int round);

@@ -6,9 +6,16 @@
 namespace plumbline::validation {
 namespace {
 
-std::vector<std::string> names(PredictorPool& pool, int window) {
-  std::vector<std::string> found;
-  pool.with(window, {}, {}, [&](Predictor& predictor) { found = predictor.plant().state_names(); });
+struct States {
+  std::vector<std::string> names;
+  int positions = 0;
+};
+
+States states_of(PredictorPool& pool, int window) {
+  States found;
+  pool.with(window, {}, {}, [&](Predictor& predictor) {
+    found = {predictor.plant().state_names(), predictor.plant().positions()};
+  });
   return found;
 }
 
@@ -21,10 +28,13 @@ std::vector<Eigen::VectorXd> carried_states(const model::Model& from, const mode
   std::vector<Eigen::VectorXd> carried(x0.size());
   parallel_for(static_cast<int>(x0.size()), data.threads, [&](int w) {
     const auto i = static_cast<std::size_t>(w);
-    const std::vector<std::string> known = names(before, w);
-    const std::vector<std::string> wanted = names(behind, w);
+    const auto [known, known_positions] = states_of(before, w);
+    const auto [wanted, wanted_positions] = states_of(behind, w);
     if (known == wanted) {
       carried[i] = x0[i];
+      return;
+    }
+    if (known_positions != wanted_positions) {
       return;
     }
     behind.with(w, {}, {},

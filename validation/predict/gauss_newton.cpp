@@ -240,7 +240,8 @@ class Search {
   /// The cost there in units of the present one with its tolerance; infinite where it cannot be integrated.
   double go_if_better(Point there) {
     try {
-      std::vector<Reduced> next = states_.reduce_some(data_.all_windows(), there);
+      std::vector<Reduced> next =
+          data_.has_segments() ? states_.reduce_some(data_.all_windows(), there) : states_.reduce_at(there);
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
       if (data_.has_segments()) {

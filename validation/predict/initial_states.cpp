@@ -286,19 +286,25 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
 void InitialStates::settle_lost(const std::vector<double>& promised, const Settling& settling,
                                 const Point& from, Point& point, std::vector<Reduced>& reduced) {
   constexpr double kKept = 2.0;
+  constexpr std::ptrdiff_t kOneOf = 4;  // where more are lost it is not their states that are wrong
   const Data& data = pool_.data();
+  const auto is_lost = [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    return is_above_floor(data, w, reduced[i].raw_sse) && !(reduced[i].raw_sse <= kKept * promised[i]);
+  };
+  const std::vector<int> all = data.all_windows();
+  if (kOneOf * std::count_if(all.begin(), all.end(), is_lost) > static_cast<std::ptrdiff_t>(all.size())) {
+    return;
+  }
   in_turn([&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
-    const auto is_lost = [&] {
-      return is_above_floor(data, w, reduced[i].raw_sse) && !(reduced[i].raw_sse <= kKept * promised[i]);
-    };
-    if (is_lost()) {
+    if (is_lost(w)) {
       try_start(w, from.x0[i], settling, point, reduced[i]);
     }
-    if (is_lost()) {
+    if (is_lost(w)) {
       try_from_before(w, before, settling, point, reduced[i]);
     }
-    if (is_lost()) {
+    if (is_lost(w)) {
       try_from_measurements(w, settling, point, reduced[i]);
     }
   });

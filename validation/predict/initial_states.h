@@ -58,7 +58,7 @@ class InitialStates {
   std::vector<Reduced> settle_in_turn(const Settling& settling, Point& point);
   /// Windows above the floor whose squared residuals are more than twice what was promised: once more from
   /// where they began, then from where the one before ends, then from the measurements, where that ends
-  /// better.
+  /// better. Nothing is tried where more than a quarter of all are.
   void settle_lost(const std::vector<double>& promised, const Settling& settling, const Point& from,
                    Point& point, std::vector<Reduced>& reduced);
   /// All windows from where they are, or from the measurements; the equations where they end.

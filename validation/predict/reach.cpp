@@ -1,103 +1,18 @@
 #include "validation/predict/reach.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
+#include "validation/predict/initial_states.h"
 #include "validation/predict/kept_keys.h"
-#include "validation/predict/states_by_parts.h"
+#include "validation/predict/whole_windows.h"
 
 namespace plumbline::validation {
 namespace {
 
 constexpr double kFirstSegments = 1.0 / 16.0;  // of PredictOptions::window
 constexpr double kShortestSegments = 1.0 / 32.0;
-
-/// Above the floor: has the search ended where the next step still promises much, or expand errors so much
-/// that what the model misses is far beyond what a linearisation holds for?
-bool is_lost(const Data& data, int window, const Reduced& one) {
-  constexpr double kExpansion = 30.0;
-  return one.curved && is_above_floor(data, window, one.raw_sse) &&
-         (!is_settled(one, kRoughly) || one.expansion > kExpansion);
-}
-
-bool is_any_curved(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
-  bool any = false;
-  for (const int w : data.all_windows()) {
-    pool.with(w, {}, {}, [&](Predictor& predictor) { any = any || predictor.is_curved(); });
-  }
-  return any;
-}
-
-bool can_be_followed_whole(const model::Model& model, const Data& data) {
-  constexpr std::size_t kOneOf = 10;
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, data);
-  Point at;
-  try {
-    const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).settle_all(kRoughly, at);
-    const std::vector<int> all = data.all_windows();
-    const auto lost = std::count_if(all.begin(), all.end(), [&](int w) {
-      return is_lost(data, w, reduced[static_cast<std::size_t>(w)]);
-    });
-    return kOneOf * static_cast<std::size_t>(lost) <= reduced.size();
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return false;  // it cannot be integrated so far
-  }
-}
-
-/// Does the next step promise the floor, or what is close to it, above which it is? A straight line's promise
-/// in a window as bent as this is not exact.
-bool is_promising(const Data& data, int window, const Reduced& one) {
-  constexpr double kPromised = 1.5;
-  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse, kPromised);
-}
-
-/// Of each window the share that can be searched, and where it begins. None for a model without corners.
-struct Shares {
-  Eigen::VectorXd share;
-  std::vector<Eigen::VectorXd> x0;
-};
-
-Shares shares_that_can_be_searched(const model::Model& model, const Data& data) {
-  constexpr double kLeast = 0.05;
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, data);
-  if (!has_corners(pool, as_it_is, {})) {
-    return {};
-  }
-  Grown grown;
-  Point at = grown_states(pool, as_it_is, {}, &grown);
-  const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
-  Eigen::VectorXd shares = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.windows.size()));
-  for (const int w : data.all_windows()) {
-    const auto i = static_cast<std::size_t>(w);
-    if (is_promising(data, w, reduced[i])) {
-      shares[w] = std::max(kLeast, grown.share[i]);
-      at.x0[i] = grown.x0[i];
-    }
-  }
-  return {std::move(shares), std::move(at.x0)};
-}
-
-Followed follow_whole(const model::Model& model, const Data& data) {
-  const Record record = kept(data, key_of("follow", model, data), [&] {
-    const Shares shares = shares_that_can_be_searched(model, data);
-    return Record().add(shares.share).add(shares.x0);
-  });
-  RecordReader reader(record);
-  const Eigen::VectorXd shares = reader.vector();
-  if (shares.size() == 0) {
-    return {data, {}, data.predict.window};
-  }
-  return {data.beginnings(std::vector<double>(shares.begin(), shares.end())), reader.vectors(),
-          data.predict.window};
-}
 
 /// States of windows, and the squares that they leave; infinite ones where none was found.
 struct Settled {
@@ -227,7 +142,7 @@ std::vector<Eigen::VectorXd> starts_of(const Data& longer, const std::vector<std
 /// Twice as long. Nothing where too many are lost, unless in any case.
 std::optional<Level> lengthened(const model::Model& model, const Data& data, const Level& level,
                                 bool in_any_case) {
-  constexpr double kTimes = 4.0;  // of mean squares
+  constexpr double kTimes = 2.0;  // of mean squares
   const Followed& shorter = level.followed;
   const double length = std::min(data.predict.window, 2.0 * shorter.length);
   const Data longer = data.segments(length);
@@ -286,17 +201,23 @@ std::size_t not_followed(const Data& data, const Followed& followed) {
 }
 
 Followed follow(const model::Model& model, const Data& data) {
-  const Record whole = kept(data, key_of("can_be_followed", model, data), [&] {
-    return Record().add(!is_any_curved(model, data) || can_be_followed_whole(model, data) ? 1.0 : 0.0);
-  });
-  if (RecordReader(whole).number() != 0.0) {
+  if (can_be_followed_whole(model, data)) {
     return follow_whole(model, data);
   }
-  Followed segments = follow_in_segments(model, data, kFirstSegments * data.predict.window);
-  if (are_too_many(not_followed(data, segments), data.segments(segments.length).windows.size())) {
-    segments = follow_in_segments(model, data, kShortestSegments * data.predict.window);
-  }
-  return segments;
+  // Which length it is shows on a few windows.
+  constexpr std::size_t kFew = 6;  // of each role
+  const double window = data.predict.window;
+  const Data few = data.thinned(kFew);
+  const Followed tried = follow_in_segments(model, few, kFirstSegments * window);
+  const bool too_long = are_too_many(not_followed(few, tried), few.segments(tried.length).windows.size());
+  return follow_in_segments(model, data, (too_long ? kShortestSegments : kFirstSegments) * window);
+}
+
+Followed follow_beginnings(const model::Model& model, const Data& data) {
+  constexpr double kShare = 0.05;
+  Followed beginnings = follow_whole(model, data.beginnings(kShare));
+  beginnings.length = kShare * data.predict.window;
+  return beginnings;
 }
 
 Followed follow_at(const model::Model& model, const Data& data, double length) {

@@ -23,17 +23,21 @@ struct Followed {
 /// too. Of a whole window whose initial state's next step promises the floor while no step leads there only
 /// the beginning that was at the floor is used: what is behind it depends on where it begins more finely than
 /// can be searched, and no model can be held against it. A window that the model misses without such a
-/// promise stays as it is: that is evidence. A segment whose search does not settle, or whose error is more
-/// than three times the ninth decile of all, is left out.
+/// promise stays as it is: that is evidence. A segment whose search does not
+/// settle, or whose error is more than three times the ninth decile of all, is left out.
 Followed follow(const model::Model& model, const Data& data);
+
+/// The first twentieth of each window alone: for a model that misses so much that where its segments end says
+/// nothing of where the next ones begin.
+Followed follow_beginnings(const model::Model& model, const Data& data);
 
 /// The same at a length that is known: that of an earlier Followed.
 Followed follow_at(const model::Model& model, const Data& data, double length);
 
 /// The same of `data` from where `shorter` segments of it begin: these, searched anew with the present model,
 /// or segments of twice the length if the model can be followed so far, or `in_any_case`. A segment that is
-/// lost (above the floor, and more than twice what its halves are) stays in its halves, in more than a
-/// quarter of them the model is.
+/// lost (above the floor, with more than twice the mean square of its halves) stays in its halves; where more
+/// than a quarter are, the model is.
 Followed follow_further(const model::Model& model, const Data& data, const Followed& shorter,
                         bool in_any_case);
 
