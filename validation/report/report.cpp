@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "simulator/model/robot_file.h"
 #include "validation/compare/rung_name.h"
@@ -115,11 +113,11 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
 
 std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, const Progress& progress) {
   for (Rung& rung : ladder) {
-    if (std::isinf(rung.length)) {
+    if (rung.part >= 1.0) {
       continue;
     }
     if (&rung != &ladder.front() && &rung != &ladder.back()) {
-      rung.name += fmt::format(" (windows of {:.3g} s)", rung.length);
+      rung.name += fmt::format(" ({:.0f} % of each window)", 100.0 * rung.part);
       continue;
     }
     progress("whole windows: " + rung.name, 0.0);
@@ -127,7 +125,7 @@ std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, c
     PredictorPool pool(fitted_model(rung.stage), data);
     rung.stage.estimate = estimate_states(pool);
     rung.stage.estimate.theta = theta;
-    rung.length = std::numeric_limits<double>::infinity();
+    rung.part = 1.0;
   }
   return ladder;
 }

@@ -1,7 +1,6 @@
 #include "validation/report/result_json.h"
 
 #include "validation/diagnose/own_parameters.h"
-#include "validation/report/json_number.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::validation {
@@ -148,7 +147,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   }
   for (const Rung& rung : diagnosis.ladder) {
     json["ladder"].push_back({{"name", rung.name},
-                              {"length", json_number(rung.length)},
+                              {"part", rung.part},
                               {"train", rung.train()},
                               {"held_out", rung.held_out()},
                               {"foretold", rung.foretold()}});
