@@ -127,8 +127,8 @@ validation::Progress timed_lines() {
 void print_ladder(const validation::Diagnosis& diagnosis) {
   for (const validation::Rung& rung : diagnosis.ladder) {
     fmt::print(stderr,
-               "{:8.3f} floors in train, {:.3f} held out ({:.3f} foretold) on {:.3g} of the windows: {}\n",
-               rung.train(), rung.held_out(), rung.foretold(), rung.part, rung.name);
+               "{:8.3f} floors in train, {:.3f} held out ({:.3f} foretold) on windows of {:.3g} s: {}\n",
+               rung.train(), rung.held_out(), rung.foretold(), rung.length, rung.name);
   }
 }
 

@@ -48,7 +48,7 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   EXPECT_EQ(json["interrupted"], true);
   ASSERT_GE(json["ladder"].size(), 1U);
   EXPECT_THAT(keys(json["ladder"][0]),
-              testing::UnorderedElementsAre("name", "part", "train", "held_out", "foretold"));
+              testing::UnorderedElementsAre("name", "length", "train", "held_out", "foretold"));
   EXPECT_EQ(json["ladder"][0]["name"], "as given");
   succeed({"check", "found.yaml"});
 }

@@ -7,7 +7,7 @@
 namespace plumbline::validation {
 namespace {
 
-// The first rung is of beginnings of the windows on which nothing was missing, the last of all that could be
+// The first rung is of short segments of the windows on which nothing was missing, the last of all that could be
 // followed.
 TEST(Conclude, WhereNothingWasAddedTheLastErrorCounts) {
   const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(2);
@@ -15,7 +15,7 @@ TEST(Conclude, WhereNothingWasAddedTheLastErrorCounts) {
   Rung rung{"as given", as_given(bench(), data), 0.2};
   rung.stage.estimate.predicted.scores.held_out = 0.95;
   diagnosis.ladder.push_back(rung);
-  rung.part = 0.5;
+  rung.length = 0.5;
   rung.stage.estimate.predicted.scores.held_out = 2.6;
   diagnosis.ladder.push_back(rung);
   diagnosis.final_stage = rung.stage;

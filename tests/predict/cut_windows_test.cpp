@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/predict/hopper.h"
 #include "tests/trace/refusal.h"
@@ -52,6 +53,45 @@ TEST_F(HopperWindows, ComeInTheOrderStanceFlight) {
   EXPECT_TRUE(std::is_partitioned(windows_.begin(), windows_.end(), grounded));
   EXPECT_TRUE(grounded(windows_.front()));
   EXPECT_FALSE(grounded(windows_.back()));
+}
+
+TEST_F(HopperWindows, InSegmentsCoverTheSameSamplesInTurn) {
+  constexpr double kLength = 0.06;
+  const auto samples = static_cast<Eigen::Index>(std::lround(kLength / trial_.period));
+  for (const Window& window : windows_) {
+    const std::vector<Window> segments = segments_of(window, trial_, kLength);
+    Eigen::Index next = window.first;
+    std::size_t events = 0;
+    for (const Window& segment : segments) {
+      EXPECT_EQ(segment.first, next);
+      EXPECT_EQ(segment.continues, segment.first > window.first);
+      EXPECT_LE(2 * segment.count, 3 * samples);
+      EXPECT_GE(segment.count, 8);
+      next += segment.count;
+      events += segment.events.size();
+    }
+    EXPECT_EQ(next, window.first + window.count);
+    EXPECT_EQ(events, window.events.size());
+  }
+}
+
+TEST_F(HopperWindows, InShorterSegmentsLieWithinTheLongerOnes) {
+  const Window& window = windows_.front();
+  for (const Window& longer : segments_of(window, trial_, 0.1)) {
+    const std::vector<Window> shorter = segments_of(window, trial_, 0.05);
+    EXPECT_TRUE(std::any_of(shorter.begin(), shorter.end(),
+                            [&](const Window& one) { return one.first == longer.first; }));
+  }
+}
+
+// The first one alone where no sensor shows in which state the others would begin.
+TEST_F(HopperWindows, OfATrialWithAStartHaveOneSegment) {
+  Trial started = trial_;
+  started.start.resize(1);
+  const std::vector<Window> segments = segments_of(windows_.front(), started, 0.05);
+  ASSERT_EQ(segments.size(), 1U);
+  EXPECT_EQ(segments.front().first, windows_.front().first);
+  EXPECT_LT(segments.front().count, windows_.front().count);
 }
 
 TEST_F(HopperWindows, WithoutASwitchAreCutAsBefore) {

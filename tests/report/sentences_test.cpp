@@ -42,9 +42,9 @@ TEST(Summary, SaysWhichWindowsEndEarly) {
   diagnosis.windows = 14;
   EXPECT_THAT(summary(diagnosis), Not(HasSubstr("windows")));
   diagnosis.cut_windows = 1;
-  EXPECT_THAT(summary(diagnosis), HasSubstr("1 of 14 windows ends early"));
+  EXPECT_THAT(summary(diagnosis), HasSubstr("1 of 14 windows is not followed to its end"));
   diagnosis.cut_windows = 2;
-  EXPECT_THAT(summary(diagnosis), HasSubstr("2 of 14 windows end early"));
+  EXPECT_THAT(summary(diagnosis), HasSubstr("2 of 14 windows are not followed to their end"));
 }
 
 TEST(Summary, APartIsNotTheAnswer) {

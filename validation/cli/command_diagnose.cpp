@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -150,21 +151,21 @@ void print_own_parameters(const std::vector<OwnParameter>& parameters) {
   print_table({"parameter", "stated", "fitted", "shift in deviations"}, rows);
 }
 
-/// On what part of each window the errors are is said where it is not the whole.
+/// On how long windows the errors are is said where these are not the whole ones.
 void print_ladder(const std::vector<validation::Rung>& ladder) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
-  const bool in_parts =
-      std::any_of(ladder.begin(), ladder.end(), [](const validation::Rung& rung) { return rung.part < 1.0; });
+  const bool in_segments =
+      std::any_of(ladder.begin(), ladder.end(), [](const validation::Rung& rung) { return !std::isinf(rung.length); });
   std::vector<std::string> head{"model", "train", "held-out", "foretold"};
-  if (in_parts) {
-    head.insert(head.begin() + 1, "of each window");
+  if (in_segments) {
+    head.insert(head.begin() + 1, "windows");
   }
   std::vector<std::vector<std::string>> rows;
   for (const validation::Rung& rung : ladder) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out()),
                     fmt::format("{:.3f}", rung.foretold())});
-    if (in_parts) {
-      rows.back().insert(rows.back().begin() + 1, fmt::format("{:.0f} %", 100.0 * rung.part));
+    if (in_segments) {
+      rows.back().insert(rows.back().begin() + 1, std::isinf(rung.length) ? "whole" : fmt::format("{:.2g} s", rung.length));
     }
   }
   print_table(head, rows);

@@ -22,7 +22,7 @@ void accept(const Tried& tried, const Choice& choice, const Data& data, Diagnosi
   set_values(next, data, accepted);
   diagnosis.final_stage = next;  // together with the finding: an interruption comes before both or after
   diagnosis.accepted = accepted;
-  diagnosis.ladder.push_back({"+ " + candidate.label(), next, diagnosis.ladder.back().part});
+  diagnosis.ladder.push_back({"+ " + candidate.label(), next, diagnosis.ladder.back().length});
 }
 
 void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choice& choice,
@@ -43,10 +43,10 @@ void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choic
   std::vector<Finding> accepted{first, second};
   set_values(both, data, accepted);
   drop_accepted(diagnosis);
-  const double part = diagnosis.ladder.back().part;
-  diagnosis.ladder.push_back({"+ " + pair.first.label(), single, part});
+  const double length = diagnosis.ladder.back().length;
+  diagnosis.ladder.push_back({"+ " + pair.first.label(), single, length});
   diagnosis.final_stage = both;
-  diagnosis.ladder.push_back({"+ " + pair.second.label(), both, part});
+  diagnosis.ladder.push_back({"+ " + pair.second.label(), both, length});
   diagnosis.accepted = accepted;
 }
 

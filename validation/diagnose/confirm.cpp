@@ -6,6 +6,7 @@
 #include <random>
 
 #include "validation/diagnose/first_of_each.h"
+#include "validation/predict/carried_states.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -27,10 +28,14 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   // The promised values decide whether states are added, so the model must hold them before it is built.
   result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
   PredictorPool pool(result.extended.model, data);
+  // In the midst of a contact the states that a straight line promises may be none that can be.
+  const std::vector<Eigen::VectorXd> x0 =
+      data.has_segments()
+          ? carried_states(fitted_model(stage), result.extended.model, data, stage.estimate.x0)
+          : hypothesis.x0;
   // The way over the windows' beginnings is for the law that is new; what was there has gone it.
   const bool by_parts = jumps(result.extended.model.effects.back());
-  result.estimate =
-      gauss_newton(pool, result.extended.parameters, theta, hypothesis.x0, {iterations, 5e-3, by_parts});
+  result.estimate = gauss_newton(pool, result.extended.parameters, theta, x0, {iterations, 5e-3, by_parts});
   result.extended.theta = result.estimate.theta;
   return result;
 }
@@ -259,10 +264,15 @@ void sort_by_error(std::vector<Refit>& refits) {
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,
                          const DiagnoseOptions& options, const Progress& progress) {
+  // Segments are short enough for a straight line: fewer candidates need a refit.
+  constexpr int kRefitsOnSegments = 5;
+  const bool straight = data.has_segments();
+  const double kept_promise = straight ? 1.2 : 2.5;
+  const int most = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
   std::vector<const Hypothesis*> chosen;
   std::map<int, int> starts_of;
   for (const Hypothesis& hypothesis : hypotheses) {
-    if (static_cast<int>(chosen.size()) >= options.refits) {
+    if (static_cast<int>(chosen.size()) >= most) {
       break;
     }
     if (starts_of[hypothesis.candidate]++ == 0) {
@@ -289,7 +299,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
     // best so far may itself be refused, and a promise made by a straight line says little.
     if (refits.size() < 2 || !at_floor(refits, options) ||
-        chosen[i]->promised() <= 2.5 * refits.front().square() + 0.3) {
+        chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
       add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
     }
   }

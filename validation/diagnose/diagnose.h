@@ -1,6 +1,7 @@
 // Which effect is missing, where, and how sure.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct DiagnoseOptions {
   double simpler = 0.02;         ///< relative rise of the error at which a simpler law is still preferred
   double stable = 0.7;           ///< least share of resamples that choose the effect (or a rival)
   double at_floor = 1.05;        ///< error at which nothing is left to explain
+  double nothing = 1.1;          ///< error below which nothing is missing where nothing was named
   double finished = 1.2;         ///< error below which what was named is an answer
   double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
   double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
@@ -81,7 +83,8 @@ struct PairRow {
 struct Rung {
   std::string name;  ///< "as given", "own parameters fitted", "+ coulomb@drive"
   Stage stage;
-  double part = 1.0;  ///< of every window's length from its beginning, on which its errors are
+  /// Of the windows on which its errors are, s: shorter ones are segments; infinite: whole windows.
+  double length = std::numeric_limits<double>::infinity();
   double train() const { return stage.estimate.scores.train; }
   double held_out() const { return stage.estimate.scores.held_out; }
   double foretold() const { return stage.estimate.predicted.scores.held_out; }
@@ -107,9 +110,10 @@ struct Diagnosis {
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };
 
-/// Where the model cannot be followed to the end of the windows (predict/reach.h), it is diagnosed on their
-/// beginnings; what explains these goes on to longer parts, where more may be found, up to the whole windows.
-/// Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is finished.
+/// Where the model cannot be followed to the end of the windows (predict/reach.h), it is diagnosed on
+/// segments of them; what explains these goes on to longer ones, where more may be found, up to the whole
+/// windows. Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is
+/// finished.
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                    const DiagnoseOptions& options, const Progress& progress);
 

@@ -40,9 +40,9 @@ bool is_nothing(const Stage& stage, std::size_t effect) {
 }  // namespace
 
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
-  const double part = diagnosis.ladder.back().part;
+  const double length = diagnosis.ladder.back().length;
   for (Rung& rung : diagnosis.ladder) {
-    if (rung.part < part) {
+    if (rung.length < length) {
       continue;
     }
     progress("all windows for " + rung.name, 0.9);
@@ -74,7 +74,7 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
     const Stage without = unless_lost(without_effect(stage, effect), all);
     const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
     if (rise < options.material) {
-      diagnosis.ladder.push_back({"- " + name, without, diagnosis.ladder.back().part});
+      diagnosis.ladder.push_back({"- " + name, without, diagnosis.ladder.back().length});
       accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
       stage = without;
     } else {
@@ -123,8 +123,8 @@ void take_open_values(const Data& all, Diagnosis& diagnosis) {
 void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis) {
   const double after = judged(diagnosis.final_stage.estimate, data);
   if (diagnosis.accepted.empty()) {
-    // The first rungs may be of shorter parts of the windows, on which nothing was missing yet.
-    diagnosis.verdict = after < 1.1 ? Verdict::nothing_missing : Verdict::unexplained;
+    // The first rungs may be of shorter segments of the windows, on which nothing was missing yet.
+    diagnosis.verdict = after < options.nothing ? Verdict::nothing_missing : Verdict::unexplained;
     diagnosis.unexplained_share = diagnosis.verdict == Verdict::unexplained ? 1.0 : 0.0;
     return;
   }

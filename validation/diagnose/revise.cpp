@@ -67,7 +67,7 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   const Stage next = after(winner.refit);
   set_values(next, data, accepted);
   diagnosis.ladder.push_back(
-      {winner.candidate.label() + " for " + old.label(), next, diagnosis.ladder.back().part});
+      {winner.candidate.label() + " for " + old.label(), next, diagnosis.ladder.back().length});
   diagnosis.final_stage = next;
   diagnosis.accepted = accepted;
 }

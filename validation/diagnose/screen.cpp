@@ -6,19 +6,27 @@
 
 #include "validation/diagnose/promise.h"
 #include "validation/diagnose/tangents.h"
+#include "validation/predict/carried_states.h"
 #include "validation/predict/kept_keys.h"
 
 namespace plumbline::validation {
 namespace {
 
-/// Windows for the costly starts: enough to tell, spread over the trials.
-std::vector<int> thinned(const Data& data) {
+std::vector<int> every(std::size_t stride, const std::vector<int>& windows) {
   std::vector<int> chosen;
-  const std::size_t stride = data.windows.size() > 16 ? 2 : 1;
-  for (std::size_t w = 0; w < data.windows.size(); w += stride) {
-    chosen.push_back(static_cast<int>(w));
+  for (std::size_t w = 0; w < windows.size(); w += stride) {
+    chosen.push_back(windows[w]);
   }
   return chosen;
+}
+
+/// Windows for the costly starts: enough to tell, spread over the trials. Of segments, which are many and
+/// short, fewer.
+std::vector<int> thinned(const Data& data) {
+  constexpr std::size_t kEnough = 16;
+  const std::size_t count = data.windows.size();
+  const std::size_t stride = data.has_segments() ? std::max<std::size_t>(2, count / kEnough) : 2;
+  return every(count > kEnough ? stride : 1, data.all_windows());
 }
 
 /// Squared error of the stage on some of the windows as a share of that on all: promises made on a part of
@@ -49,12 +57,10 @@ struct Part {
 
 /// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
 Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
-                   const std::vector<int>& windows) {
+                   const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
   PredictorPool pool(extended.model, data);
   const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
-  const std::vector<Eigen::VectorXd> measured(data.windows.size());
-  const std::vector<Reduced> reduced =
-      reduce(pool, windows, extended.parameters, extended.theta, measured, units);
+  const std::vector<Reduced> reduced = reduce(pool, windows, extended.parameters, extended.theta, x0, units);
   const Sum train = sum_of(reduced, windows, data, Role::train);
   const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
   std::vector<Eigen::Index> chosen(extended.parameters.size());
@@ -73,9 +79,9 @@ Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
 
 /// An infinite one where the model cannot be integrated on these trials: it is no explanation of them.
 Promise promise_unless_lost(const Extended& extended, std::size_t own, const Data& data,
-                            const std::vector<int>& windows) {
+                            const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
   try {
-    return promise_at(extended, own, data, windows);
+    return promise_at(extended, own, data, windows, x0);
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
@@ -85,15 +91,15 @@ Promise promise_unless_lost(const Extended& extended, std::size_t own, const Dat
 }
 
 Promise kept_promise(const Extended& extended, std::size_t own, const Data& data,
-                     const std::vector<int>& windows) {
+                     const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
   ResultKey key = key_of("screen", extended.model, data);
   add_parameters(extended.parameters, key);
-  key.numbers.add(extended.theta).add(static_cast<double>(own));
+  key.numbers.add(extended.theta).add(static_cast<double>(own)).add(x0);
   for (const int w : windows) {
     key.numbers.add(w);
   }
   const Record record = kept(data, key, [&] {
-    const Promise promise = promise_unless_lost(extended, own, data, windows);
+    const Promise promise = promise_unless_lost(extended, own, data, windows, x0);
     return Record().add(promise.step).add(promise.train).add(promise.held_out);
   });
   RecordReader reader(record);
@@ -104,20 +110,57 @@ Promise kept_promise(const Extended& extended, std::size_t own, const Data& data
   return promise;
 }
 
+/// Windows begin where the measurements say; segments, which may begin in a contact, where the stage has
+/// them.
+std::vector<Eigen::VectorXd> start_states(const Stage& stage, const Extended& extended, const Data& data) {
+  return data.has_segments() ? carried_states(fitted_model(stage), extended.model, data, stage.estimate.x0)
+                             : std::vector<Eigen::VectorXd>(data.windows.size());
+}
+
 void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
                   const Data& data, const Part& part) {
   const Extended extended =
       extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
-  const Promise promise =
-      kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data, part.windows);
+  const Promise promise = kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data,
+                                       part.windows, start_states(stage, extended, data));
   hypothesis.step = promise.step;
   hypothesis.promised_train = promise.train / part.train_share;
   hypothesis.promised_held_out = promise.held_out / part.held_out_share;
 }
 
+Part part_of(const Stage& stage, const std::vector<int>& windows, const Data& data) {
+  return {windows, share_of_error(stage, windows, data, Role::train),
+          share_of_error(stage, windows, data, Role::held_out)};
+}
+
 void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+}
+
+/// Starts from which the model cannot be integrated are out.
+void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                   const Part& part, const Progress& progress, std::vector<Hypothesis>& starts) {
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
+    progress("screening " + candidate.label(),
+             static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
+    screen_start(stage, candidates, starts[s], data, part);
+  }
+  starts.erase(std::remove_if(starts.begin(), starts.end(),
+                              [](const Hypothesis& one) { return !std::isfinite(one.promised()); }),
+               starts.end());
+}
+
+constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
+
+/// The third of the starts that promises most on a few windows.
+void keep_promising(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                    const Part& few, const Progress& progress, std::vector<Hypothesis>& starts) {
+  constexpr std::size_t kLeast = 12;
+  screen_starts(stage, candidates, data, few, progress, starts);
+  sort_by_promise(starts);
+  starts.resize(std::min(starts.size(), std::max(kLeast, starts.size() / 3)));
 }
 
 /// The best of the laws that had to be linearised away from their null value are linearised once more where
@@ -194,18 +237,13 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   }
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
-  const std::vector<int> windows = thinned(data);
-  const Part part{windows, share_of_error(stage, windows, data, Role::train),
-                  share_of_error(stage, windows, data, Role::held_out)};
-  for (std::size_t s = 0; s < starts.size(); ++s) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
-    progress("screening " + candidate.label(),
-             static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
-    screen_start(stage, candidates, starts[s], data, part);
-    if (std::isfinite(starts[s].promised())) {
-      found.push_back(std::move(starts[s]));
-    }
+  const Part part = part_of(stage, thinned(data), data);
+  if (data.has_segments()) {
+    keep_promising(stage, candidates, data, part_of(stage, every(kFew, part.windows), data), progress,
+                   starts);
   }
+  screen_starts(stage, candidates, data, part, progress, starts);
+  found.insert(found.end(), starts.begin(), starts.end());
   sort_by_promise(found);
   look_again(stage, candidates, data, part, progress, found);
   return found;

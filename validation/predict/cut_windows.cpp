@@ -100,7 +100,57 @@ void keep_those_from_flight(const Trial& trial, std::vector<Window>& windows, st
   windows.erase(end, windows.end());
 }
 
+/// Samples from k to the nearest one at which a contact switch changes; the trial's length where none does.
+Eigen::Index distance_to_contact(const Trial& trial, Eigen::Index k) {
+  Eigen::Index nearest = trial.samples();
+  for (const SwitchRecord& record : trial.switches) {
+    for (Eigen::Index i = 1; i < record.values.size(); ++i) {
+      if (record.values[i] != record.values[i - 1]) {
+        nearest = std::min(nearest, std::abs(i - k));
+      }
+    }
+  }
+  return nearest;
+}
+
+/// Where to cut a window in two.
+Eigen::Index calm_middle(const Window& window, const Trial& trial) {
+  constexpr Eigen::Index kReach = 10;  // a tenth of the window to either side
+  const Eigen::Index middle = window.first + window.count / 2;
+  Eigen::Index best = middle;
+  for (Eigen::Index d = 0; d <= window.count / kReach; ++d) {
+    for (const Eigen::Index k : {middle - d, middle + d}) {
+      best = distance_to_contact(trial, k) > distance_to_contact(trial, best) ? k : best;
+    }
+  }
+  return best;
+}
+
+void add_segments(const Window& window, const Trial& trial, double samples, std::vector<Window>& segments) {
+  constexpr double kLongest = 1.5;  // times the length asked for
+  const Eigen::Index cut = calm_middle(window, trial) - window.first;
+  if (static_cast<double>(window.count) <= kLongest * samples ||
+      std::min(cut, window.count - cut) < kShortest) {
+    segments.push_back(window);
+    find_events(trial, segments.back());
+    return;
+  }
+  add_segments({window.trial, window.first, cut, {}, window.continues}, trial, samples, segments);
+  add_segments({window.trial, window.first + cut, window.count - cut, {}, true}, trial, samples, segments);
+}
+
 }  // namespace
+
+std::vector<Window> segments_of(const Window& window, const Trial& trial, double length) {
+  Window whole = window;
+  whole.events.clear();
+  std::vector<Window> segments;
+  add_segments(whole, trial, length / trial.period, segments);
+  if (!trial.start.empty()) {
+    segments.resize(1);
+  }
+  return segments;
+}
 
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options) {
   std::vector<Window> windows;

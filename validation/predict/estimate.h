@@ -80,6 +80,7 @@ struct Reduced {
   double sse = 0.0;      ///< after the initial state has moved; with how far it is from where it is expected
   double raw_sse = 0.0;  ///< before
   bool curved = false;   ///< far from linear in where it begins: through contact, stops or play
+  double expansion = 0.0;   ///< Predictor::expansion
   Eigen::VectorXd square;   ///< sse by channel
   Eigen::VectorXd x_shift;  ///< change of the initial state at delta = 0
   Eigen::MatrixXd x_slope;  ///< its change with delta: x0 + x_shift - x_slope delta

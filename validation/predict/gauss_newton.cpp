@@ -146,6 +146,9 @@ Estimate estimate_at(const Data& data, const Point& point, const std::vector<Red
 Estimate initial_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at,
                         const EstimateOptions& options) {
   constexpr int kStepsOfIteration = 6;
+  if (at.x0.empty() && pool.data().has_segments()) {
+    InitialStates(pool, parameters, {}).settle_in_turn(kRoughly, at);
+  }
   const std::vector<Reduced> reduced =
       settle_all(pool, parameters, {kStepsOfIteration * options.iterations, options.tolerance}, at);
   expect_finite(reduced);
@@ -165,10 +168,16 @@ class Search {
         units_(search_units(parameters, from.theta)),
         states_(pool, parameters, units_),
         here_(from) {
-    states_.begin(here_);
-    reduced_ = states_.reduce_at(here_);
+    begin(pool);
+    if (data_.has_segments()) {
+      reduced_ = states_.reduce_some(data_.all_windows(), here_);
+      states_.settle(curved(reduced_), {}, here_, reduced_);
+      states_.settle_lost(typical(reduced_), {}, Point(here_), here_, reduced_);
+    } else {
+      reduced_ = states_.reduce_at(here_);
+      states_.settle(curved(reduced_), {}, here_, reduced_);
+    }
     expect_finite(reduced_);
-    states_.settle(curved(reduced_), {}, here_, reduced_);
   }
 
   Estimate run() {
@@ -180,6 +189,9 @@ class Search {
       slow = at_end || cost() < (1.0 - options_.tolerance) * before ? 0 : slow + 1;
       at_end = at_end || slow == kSlow;
     }
+    if (data_.has_segments()) {
+      states_.settle_lost(typical(reduced_), {}, Point(here_), here_, reduced_);
+    }
     states_.take_last_step(here_, reduced_);
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
     result.iterations = iterations;
@@ -188,6 +200,18 @@ class Search {
   }
 
  private:
+  /// Initial states that are not given.
+  void begin(PredictorPool& pool) {
+    here_.x0.resize(data_.windows.size());
+    const bool all_given = std::none_of(here_.x0.begin(), here_.x0.end(),
+                                        [](const Eigen::VectorXd& one) { return one.size() == 0; });
+    if (data_.has_segments() && !all_given) {
+      InitialStates(pool, parameters_, {}).settle_in_turn(kRoughly, here_);
+    } else {
+      states_.begin(here_);
+    }
+  }
+
   static constexpr int kSlow = 3;  // steps in a row that gain next to nothing: what is promised is not there
 
   /// False where no step would help, by what it promises or by trying.
@@ -216,9 +240,13 @@ class Search {
   /// The cost there in units of the present one with its tolerance; infinite where it cannot be integrated.
   double go_if_better(Point there) {
     try {
-      std::vector<Reduced> next = states_.reduce_at(there);
+      std::vector<Reduced> next =
+          data_.has_segments() ? states_.reduce_some(data_.all_windows(), there) : states_.reduce_at(there);
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
+      if (data_.has_segments()) {
+        states_.settle_lost(promised(there), {}, here_, there, next);
+      }
       if (!is_finite(next)) {
         return std::numeric_limits<double>::infinity();
       }
@@ -233,6 +261,36 @@ class Search {
     } catch (const std::runtime_error&) {
       return std::numeric_limits<double>::infinity();  // the integrator gave up there: a shorter step
     }
+  }
+
+  /// Squared residuals that each window would have if its mean square were the median of all: far more is a
+  /// state that was lost.
+  std::vector<double> typical(const std::vector<Reduced>& reduced) const {
+    std::vector<double> squares;
+    for (const int w : data_.all_windows()) {
+      squares.push_back(reduced[static_cast<std::size_t>(w)].raw_sse / readings(data_, w));
+    }
+    std::vector<double> sorted = squares;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    for (const int w : data_.all_windows()) {
+      squares[static_cast<std::size_t>(w)] = *middle * readings(data_, w);
+    }
+    return squares;
+  }
+
+  /// Squared residuals of each window at the point's parameters, as the equations here foretell them.
+  std::vector<double> promised(const Point& there) const {
+    Eigen::VectorXd delta(units_.size());
+    for (Eigen::Index p = 0; p < units_.size(); ++p) {
+      const effects::Scale scale = parameters_[static_cast<std::size_t>(p)].scale;
+      delta[p] = (to_search(scale, there.theta[p]) - to_search(scale, here_.theta[p])) / units_[p];
+    }
+    std::vector<double> squares;
+    for (const Reduced& one : reduced_) {
+      squares.push_back(one.sse - 2.0 * one.g.dot(delta) + delta.dot(one.H * delta));
+    }
+    return squares;
   }
 
   double cost_of(const Point& at, const std::vector<Reduced>& reduced) const {
@@ -273,7 +331,7 @@ Estimate searched(PredictorPool& pool, const std::vector<FreeParameter>& paramet
                   const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                   const EstimateOptions& options) {
   Point from{start, start_x0};
-  if (!options.by_parts || !has_corners(pool, parameters, start)) {
+  if (pool.data().has_segments() || !options.by_parts || !has_corners(pool, parameters, start)) {
     return search(pool, parameters, from, options);
   }
   if (from.x0.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace plumbline::validation {
 namespace {
@@ -50,6 +51,26 @@ double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x
     return std::numeric_limits<double>::infinity();
   }
   return r.squaredNorm() + predictor.anchor(window, x0, r).r.squaredNorm();
+}
+
+/// Windows that follow each other in time without a gap, each in the order of time: a run begins where a
+/// window does not continue another one.
+std::vector<std::vector<int>> runs_of(const Data& data) {
+  std::vector<int> order = data.all_windows();
+  const auto at = [&](int w) -> const Window& { return data.windows[static_cast<std::size_t>(w)]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::make_pair(at(a).trial, at(a).first) < std::make_pair(at(b).trial, at(b).first);
+  });
+  std::vector<std::vector<int>> runs;
+  for (const int w : order) {
+    const bool follows = !runs.empty() && at(w).continues && at(runs.back().back()).trial == at(w).trial &&
+                         at(runs.back().back()).first + at(runs.back().back()).count == at(w).first;
+    if (!follows) {
+      runs.emplace_back();
+    }
+    runs.back().push_back(w);
+  }
+  return runs;
 }
 
 }  // namespace
@@ -173,6 +194,120 @@ void InitialStates::settle(std::vector<int> open, const Settling& settling, Poin
       }
     }
   }
+}
+
+std::optional<Eigen::VectorXd> InitialStates::end_of_the_one_before(int window, int before,
+                                                                    const Point& point) {
+  const Window& here = pool_.data().windows[static_cast<std::size_t>(window)];
+  std::optional<Eigen::VectorXd> end;
+  const auto i = static_cast<std::size_t>(before);
+  if (before < 0 || point.x0[i].size() == 0) {
+    return end;
+  }
+  Window until = pool_.data().windows[i];
+  until.count = here.first + 1 - until.first;
+  pool_.with(before, parameters_, point.theta, [&](Predictor& predictor) {
+    try {
+      predictor.predict(until, point.x0[i]);
+      end = predictor.predicted_states().rightCols<1>();
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      end.reset();  // it cannot be followed to its end
+    }
+  });
+  return end;
+}
+
+// Works on a copy: windows of other runs are settled at the same time.
+void InitialStates::try_start(int window, const Eigen::VectorXd& start, const Settling& settling,
+                              Point& point, Reduced& reduced) {
+  const auto w = static_cast<std::size_t>(window);
+  Point one{point.theta, std::vector<Eigen::VectorXd>(point.x0.size())};
+  one.x0[w] = start;
+  std::vector<Reduced> found = reduce_some({window}, one);
+  settle({window}, settling, one, found);
+  if (point.x0[w].size() == 0 || found[w].raw_sse < reduced.raw_sse) {
+    reduced = std::move(found[w]);
+    point.x0[w] = one.x0[w];
+  }
+}
+
+void InitialStates::try_from_before(int window, int before, const Settling& settling, Point& point,
+                                    Reduced& reduced) {
+  const std::optional<Eigen::VectorXd> end = end_of_the_one_before(window, before, point);
+  if (end) {
+    try_start(window, *end, settling, point, reduced);
+  }
+}
+
+void InitialStates::try_from_measurements(int window, const Settling& settling, Point& point,
+                                          Reduced& reduced) {
+  Eigen::VectorXd measured;
+  pool_.with(window, parameters_, point.theta, [&](Predictor& predictor) {
+    measured = predictor.search_start(pool_.data().windows[static_cast<std::size_t>(window)]);
+  });
+  try_start(window, measured, settling, point, reduced);
+}
+
+void InitialStates::in_turn(const std::function<void(int window, int before)>& work) {
+  const std::vector<std::vector<int>> runs = runs_of(pool_.data());
+  parallel_for(static_cast<int>(runs.size()), pool_.data().threads, [&](int r) {
+    int before = -1;
+    for (const int w : runs[static_cast<std::size_t>(r)]) {
+      work(w, before);
+      before = w;
+    }
+  });
+}
+
+std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Point& point) {
+  const Data& data = pool_.data();
+  point.x0.resize(data.windows.size());
+  std::vector<Reduced> reduced(data.windows.size());
+  in_turn([&](int w, int before) {
+    const auto i = static_cast<std::size_t>(w);
+    const bool given = point.x0[i].size() > 0;
+    reduced[i].raw_sse = reduced[i].sse = std::numeric_limits<double>::infinity();
+    const auto is_lost = [&] { return is_above_floor(data, w, reduced[i].raw_sse); };
+    if (given) {
+      try_start(w, Eigen::VectorXd(point.x0[i]), settling, point, reduced[i]);
+    }
+    if (is_lost()) {
+      try_from_before(w, before, settling, point, reduced[i]);
+    }
+    if (is_lost() && !given) {
+      try_from_measurements(w, settling, point, reduced[i]);
+    }
+  });
+  return reduced;
+}
+
+void InitialStates::settle_lost(const std::vector<double>& promised, const Settling& settling,
+                                const Point& from, Point& point, std::vector<Reduced>& reduced) {
+  constexpr double kKept = 2.0;
+  constexpr std::ptrdiff_t kOneOf = 4;  // where more are lost it is not their states that are wrong
+  const Data& data = pool_.data();
+  const auto is_lost = [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    return is_above_floor(data, w, reduced[i].raw_sse) && !(reduced[i].raw_sse <= kKept * promised[i]);
+  };
+  const std::vector<int> all = data.all_windows();
+  if (kOneOf * std::count_if(all.begin(), all.end(), is_lost) > static_cast<std::ptrdiff_t>(all.size())) {
+    return;
+  }
+  in_turn([&](int w, int before) {
+    const auto i = static_cast<std::size_t>(w);
+    if (is_lost(w)) {
+      try_start(w, from.x0[i], settling, point, reduced[i]);
+    }
+    if (is_lost(w)) {
+      try_from_before(w, before, settling, point, reduced[i]);
+    }
+    if (is_lost(w)) {
+      try_from_measurements(w, settling, point, reduced[i]);
+    }
+  });
 }
 
 std::vector<Reduced> InitialStates::settle_all(const Settling& settling, Point& point) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "validation/predict/estimate.h"
@@ -49,6 +51,16 @@ class InitialStates {
   std::vector<Reduced> reduce_some(const std::vector<int>& windows, const Point& point);
   /// Steps of the initial states alone, in those of the `open` windows whose next step still promises much.
   void settle(std::vector<int> open, const Settling& settling, Point& point, std::vector<Reduced>& reduced);
+  /// All windows in the order of time, those without a state from where the one before ends or from the
+  /// measurements, whichever leads further: in the midst of a contact the measurements hardly tell how deep a
+  /// foot is in the ground, how far its bristles are bent and how hard a pulley is in its stop, but a model
+  /// that explains what came before does. The equations where they end; an infinite cost where none is found.
+  std::vector<Reduced> settle_in_turn(const Settling& settling, Point& point);
+  /// Windows above the floor whose squared residuals are more than twice what was promised: once more from
+  /// where they began, then from where the one before ends, then from the measurements, where that ends
+  /// better. Nothing is tried where more than a quarter of all are.
+  void settle_lost(const std::vector<double>& promised, const Settling& settling, const Point& from,
+                   Point& point, std::vector<Reduced>& reduced);
   /// All windows from where they are, or from the measurements; the equations where they end.
   std::vector<Reduced> settle_all(const Settling& settling, Point& point);
   /// Some windows once more from the measurements, where that ends better.
@@ -65,6 +77,15 @@ class InitialStates {
 
  private:
   Reduced reduce_if_it_runs(int window, const Point& point);
+  /// The state in which the window that ends where this one begins ends.
+  std::optional<Eigen::VectorXd> end_of_the_one_before(int window, int before, const Point& point);
+  /// The window from other starts, where that ends better.
+  void try_start(int window, const Eigen::VectorXd& start, const Settling& settling, Point& point,
+                 Reduced& reduced);
+  void try_from_before(int window, int before, const Settling& settling, Point& point, Reduced& reduced);
+  void try_from_measurements(int window, const Settling& settling, Point& point, Reduced& reduced);
+  /// Work on each window after that on the one before (-1: none) is done.
+  void in_turn(const std::function<void(int window, int before)>& work);
   std::vector<Reduced> reduce_those_that_run(const std::vector<int>& windows, const Point& point);
   /// The equations of those windows that are better at `point` than there; of the others raw_sse alone, since
   /// the slopes are most of the work.

@@ -30,6 +30,7 @@ ResultKey key_of(const std::string& what, const model::Model& model, const Data&
   for (const Window& window : data.windows) {
     key.numbers.add(window.trial).add(static_cast<double>(window.first));
     key.numbers.add(static_cast<double>(window.count)).add(static_cast<double>(window.events.size()));
+    key.numbers.add(window.continues ? 1.0 : 0.0);
   }
   return key;
 }

@@ -116,6 +116,18 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   return out;
 }
 
+double Predictor::expansion(const Window& window, const Eigen::MatrixXd& Jx) const {
+  const Eigen::VectorXd deviations = from_channels_.deviations();
+  const Eigen::MatrixXd moved = Jx.leftCols(deviations.size()) * deviations.asDiagonal();
+  double most = 0.0;
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    for (const Eigen::Index c : position_channels_) {
+      most = std::max(most, moved.row(k * channels() + c).cwiseAbs().maxCoeff());
+    }
+  }
+  return most;
+}
+
 // Each of the tied parameters by itself; their columns add up.
 Linearisation Predictor::linearise_tied(const Window& window, const Eigen::VectorXd& x0,
                                         const std::vector<FreeParameter>& parameters) {

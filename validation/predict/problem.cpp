@@ -71,6 +71,21 @@ Data Data::beginnings(const std::vector<double>& shares) const {
   return copy;
 }
 
+Data Data::segments(double length) const {
+  Data copy = *this;
+  copy.windows.clear();
+  for (const Window& window : windows) {
+    const std::vector<Window> some =
+        segments_of(window, trials[static_cast<std::size_t>(window.trial)], length);
+    copy.windows.insert(copy.windows.end(), some.begin(), some.end());
+  }
+  return copy;
+}
+
+bool Data::has_segments() const {
+  return std::any_of(windows.begin(), windows.end(), [](const Window& window) { return window.continues; });
+}
+
 Role Data::role(std::size_t window) const {
   return trials[static_cast<std::size_t>(windows[window].trial)].role;
 }

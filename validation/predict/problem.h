@@ -42,6 +42,9 @@ struct Data {
   Data beginnings(double share) const;
   /// The same with a share for each window.
   Data beginnings(const std::vector<double>& shares) const;
+  /// The same windows in segments of about `length` s (segments_of).
+  Data segments(double length) const;
+  bool has_segments() const;  ///< that begin where another one ends
   Role role(std::size_t window) const;
   std::vector<int> all_windows() const;
   std::vector<int> windows_of(Role wanted) const;

@@ -1,161 +1,237 @@
 #include "validation/predict/reach.h"
 
 #include <algorithm>
-#include <array>
-#include <stdexcept>
+#include <optional>
 #include <utility>
 
+#include "validation/predict/initial_states.h"
 #include "validation/predict/kept_keys.h"
-#include "validation/predict/states_by_parts.h"
+#include "validation/predict/whole_windows.h"
 
 namespace plumbline::validation {
 namespace {
 
-/// Parts that are tried one after the other where the whole is too long.
-constexpr std::array<double, 8> kTried{0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0};
+constexpr double kFirstSegments = 1.0 / 16.0;  // of PredictOptions::window
+constexpr double kShortestSegments = 1.0 / 32.0;
 
-/// Has the search of too many initial states ended above the floor where the next step still promises much?
-bool is_lost(const Data& part, const std::vector<Reduced>& reduced) {
-  constexpr std::size_t kOneOf = 10;
-  const std::vector<int> above = above_floor(part, reduced);
-  const auto unsettled = std::count_if(above.begin(), above.end(), [&](int w) {
-    const Reduced& one = reduced[static_cast<std::size_t>(w)];
-    return one.curved && !is_settled(one, kRoughly);
-  });
-  return kOneOf * static_cast<std::size_t>(unsettled) > reduced.size();
-}
-
-bool is_any_curved(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
-  bool any = false;
-  for (const int w : data.all_windows()) {
-    pool.with(w, {}, {}, [&](Predictor& predictor) { any = any || predictor.is_curved(); });
-  }
-  return any;
-}
-
-bool can_be_followed(const model::Model& model, const Data& part, Point& at) {
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, part);
-  InitialStates states(pool, as_it_is, {});
-  const bool from_shorter = !at.x0.empty();
-  try {
-    std::vector<Reduced> reduced = states.settle_all(kRoughly, at);
-    if (from_shorter && is_lost(part, reduced)) {
-      states.settle_anew(above_floor(part, reduced), kRoughly, at, reduced);
-    }
-    return !is_lost(part, reduced);
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return false;  // it cannot be integrated so far
-  }
-}
-
-/// The whole, by way of its parts.
-bool can_be_followed_by_parts(const model::Model& model, const Data& data) {
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, data);
-  if (!has_corners(pool, as_it_is, {})) {
-    return false;
-  }
-  try {
-    const Point at = grown_states(pool, as_it_is, {});
-    return !is_lost(data, InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at));
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return false;
-  }
-}
-
-/// Does the next step promise the floor, or what is close to it, above which it is? A straight line's promise
-/// in a window as bent as this is not exact.
-bool is_promising(const Data& data, int window, const Reduced& one) {
-  constexpr double kPromised = 1.5;
-  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse, kPromised);
-}
-
-/// Of each window the share that can be searched, and where it begins. None for a model without corners.
-struct Shares {
-  Eigen::VectorXd share;
+/// States of windows, and the squares that they leave; infinite ones where none was found.
+struct Settled {
   std::vector<Eigen::VectorXd> x0;
+  Eigen::VectorXd raw, promised;
 };
 
-Shares shares_that_can_be_searched(const model::Model& model, const Data& data) {
-  constexpr double kLeast = 0.05;
-  const std::vector<FreeParameter> as_it_is;
-  PredictorPool pool(model, data);
-  if (!has_corners(pool, as_it_is, {})) {
-    return {};
+/// All windows of `data` in turn, those with a state from there.
+Settled settled_in_turn(const model::Model& model, const Data& data, const std::vector<Eigen::VectorXd>& x0) {
+  ResultKey key = key_of("settle_in_turn", model, data);
+  key.numbers.add(x0);
+  const Record record = kept(data, key, [&] {
+    const std::vector<FreeParameter> as_it_is;
+    PredictorPool pool(model, data);
+    Point at{{}, x0};
+    const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).settle_in_turn(kRoughly, at);
+    Eigen::VectorXd raw(static_cast<Eigen::Index>(reduced.size()));
+    Eigen::VectorXd promised = raw;
+    for (std::size_t w = 0; w < reduced.size(); ++w) {
+      raw[static_cast<Eigen::Index>(w)] = reduced[w].raw_sse;
+      promised[static_cast<Eigen::Index>(w)] = reduced[w].sse;
+    }
+    return Record().add(at.x0).add(raw).add(promised);
+  });
+  RecordReader reader(record);
+  Settled settled;
+  settled.x0 = reader.vectors();
+  settled.raw = reader.vector();
+  settled.promised = reader.vector();
+  return settled;
+}
+
+/// Windows that are followed, and the mean squares of their residuals.
+struct Level {
+  Followed followed;
+  std::vector<double> square;
+};
+
+Level empty_level(const Data& data, double length) {
+  Level level{{data, {}, length}, {}};
+  level.followed.data.windows.clear();
+  return level;
+}
+
+void add(const Window& window, const Eigen::VectorXd& x0, double square, Level& level) {
+  level.followed.data.windows.push_back(window);
+  level.followed.x0.push_back(x0);
+  level.square.push_back(square);
+}
+
+double mean_square(const Data& data, int window, const Settled& settled) {
+  return settled.raw[window] / readings(data, window);
+}
+
+/// Without those that are far above the others, which a search has lost: more than three times the ninth
+/// decile of the root mean squares.
+Level trimmed(const Level& level) {
+  constexpr double kFar = 9.0;  // of mean squares
+  if (level.square.empty()) {
+    return level;
   }
-  Grown grown;
-  Point at = grown_states(pool, as_it_is, {}, &grown);
-  const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).reduce_some(data.all_windows(), at);
-  Eigen::VectorXd shares = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.windows.size()));
-  for (const int w : data.all_windows()) {
-    const auto i = static_cast<std::size_t>(w);
-    if (is_promising(data, w, reduced[i])) {
-      shares[w] = std::max(kLeast, grown.share[i]);
-      at.x0[i] = grown.x0[i];
+  std::vector<double> sorted = level.square;
+  const auto decile = sorted.begin() + static_cast<std::ptrdiff_t>(9 * (sorted.size() - 1) / 10);
+  std::nth_element(sorted.begin(), decile, sorted.end());
+  const double most = kFar * std::max(kFits * kFits, *decile);
+  Level kept = empty_level(level.followed.data, level.followed.length);
+  for (std::size_t w = 0; w < level.square.size(); ++w) {
+    if (level.square[w] <= most) {
+      add(level.followed.data.windows[w], level.followed.x0[w], level.square[w], kept);
     }
   }
-  return {std::move(shares), std::move(at.x0)};
+  return kept;
 }
 
-/// The longest of the parts beyond `part` that can be followed, one after the other from where `at` begins;
-/// `part` if none can.
-double reach_by_steps(const model::Model& model, const Data& data, double part, Point at) {
-  constexpr double kMost = 0.5;
-  double reached = part;
-  while (reached < 1.0 && can_be_followed(model, data.beginnings(longer_part(reached)), at)) {
-    reached = longer_part(reached);
-  }
-  return kMost <= reached && reached < 1.0 && can_be_followed_by_parts(model, data) ? 1.0 : reached;
+/// Does the next step promise at least a third of the squares, above the floor? Such a search is not at its
+/// end, whatever it says.
+bool is_astray(const Data& data, int window, const Settled& settled) {
+  constexpr double kPromised = 1.5;
+  return is_above_floor(data, window, settled.raw[window]) &&
+         !(settled.raw[window] <= kPromised * settled.promised[window]);
 }
 
-double reach_of(const model::Model& model, const Data& data) {
-  Point straight;
-  if (!is_any_curved(model, data) || can_be_followed(model, data, straight)) {
-    return 1.0;
+/// In segments of one length, those out that cannot be searched.
+Followed follow_in_segments(const model::Model& model, const Data& data, double length) {
+  const Data segments = data.segments(length);
+  const Settled settled = settled_in_turn(model, segments, {});
+  Level some = empty_level(data, length);
+  for (const int w : segments.all_windows()) {
+    const auto i = static_cast<std::size_t>(w);
+    if (!is_astray(segments, w, settled)) {
+      add(segments.windows[i], settled.x0[i], mean_square(segments, w, settled), some);
+    }
   }
-  return std::max(kTried.front(), reach_by_steps(model, data, 0.0, {}));
+  return trimmed(some).followed;
+}
+
+bool are_too_many(std::size_t lost, std::size_t all) {
+  constexpr std::size_t kOneOf = 4;
+  return kOneOf * lost > all;
+}
+
+/// The shorter segments that lie in a longer one.
+std::vector<std::size_t> inside(const Window& longer, const Data& shorter) {
+  std::vector<std::size_t> some;
+  for (std::size_t s = 0; s < shorter.windows.size(); ++s) {
+    const Window& one = shorter.windows[s];
+    if (one.trial == longer.trial && one.first >= longer.first &&
+        one.first + one.count <= longer.first + longer.count) {
+      some.push_back(s);
+    }
+  }
+  return some;
+}
+
+/// Where the longer windows begin, of those whose first part is known.
+std::vector<Eigen::VectorXd> starts_of(const Data& longer, const std::vector<std::vector<std::size_t>>& parts,
+                                       const Followed& shorter) {
+  std::vector<Eigen::VectorXd> starts(longer.windows.size());
+  for (std::size_t w = 0; w < starts.size(); ++w) {
+    if (!parts[w].empty() && shorter.data.windows[parts[w].front()].first == longer.windows[w].first) {
+      starts[w] = shorter.x0[parts[w].front()];
+    }
+  }
+  return starts;
+}
+
+/// Twice as long. Nothing where too many are lost, unless in any case.
+std::optional<Level> lengthened(const model::Model& model, const Data& data, const Level& level,
+                                bool in_any_case) {
+  constexpr double kTimes = 2.0;  // of mean squares
+  const Followed& shorter = level.followed;
+  const double length = std::min(data.predict.window, 2.0 * shorter.length);
+  const Data longer = data.segments(length);
+  std::vector<std::vector<std::size_t>> parts;
+  for (const Window& window : longer.windows) {
+    parts.push_back(inside(window, shorter.data));
+  }
+  const Settled settled = settled_in_turn(model, longer, starts_of(longer, parts, shorter));
+  Level some = empty_level(data, length);
+  std::size_t lost = 0;
+  for (const int w : longer.all_windows()) {
+    const auto i = static_cast<std::size_t>(w);
+    const double square = mean_square(longer, w, settled);
+    double most = 1.0;
+    for (const std::size_t s : parts[i]) {
+      most = std::max(most, level.square[s]);
+    }
+    if (!is_above_floor(longer, w, settled.raw[w]) || square <= kTimes * most) {
+      add(longer.windows[i], settled.x0[i], square, some);
+      continue;
+    }
+    ++lost;
+    for (const std::size_t s : parts[i]) {
+      add(shorter.data.windows[s], shorter.x0[s], level.square[s], some);
+    }
+  }
+  if (!in_any_case && are_too_many(lost, longer.windows.size())) {
+    return std::nullopt;
+  }
+  return trimmed(some);
+}
+
+/// With the present model's states and squares.
+Level level_of(const model::Model& model, const Followed& followed) {
+  const Settled settled = settled_in_turn(model, followed.data, followed.x0);
+  Level level{followed, {}};
+  level.followed.x0 = settled.x0;
+  for (const int w : followed.data.all_windows()) {
+    level.square.push_back(mean_square(followed.data, w, settled));
+  }
+  return trimmed(level);
 }
 
 }  // namespace
 
+bool is_whole(const Followed& followed) { return followed.length >= followed.data.predict.window; }
+
+std::size_t not_followed(const Data& data, const Followed& followed) {
+  const std::vector<Window>& some = followed.data.windows;
+  const std::vector<Window> all = data.segments(followed.length).windows;
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const Window& one) {
+    return std::none_of(some.begin(), some.end(), [&](const Window& other) {
+      return other.trial == one.trial && other.first == one.first && other.count == one.count;
+    });
+  }));
+}
+
 Followed follow(const model::Model& model, const Data& data) {
-  const Record record = kept(data, key_of("follow", model, data), [&] {
-    const Shares shares = shares_that_can_be_searched(model, data);
-    return Record().add(shares.share).add(shares.x0);
-  });
-  RecordReader reader(record);
-  const Eigen::VectorXd shares = reader.vector();
-  if (shares.size() == 0) {
-    return {data, {}};
+  if (can_be_followed_whole(model, data)) {
+    return follow_whole(model, data);
   }
-  return {data.beginnings(std::vector<double>(shares.begin(), shares.end())), reader.vectors()};
+  // Which length it is shows on a few windows.
+  constexpr std::size_t kFew = 6;  // of each role
+  const double window = data.predict.window;
+  const Data few = data.thinned(kFew);
+  const Followed tried = follow_in_segments(model, few, kFirstSegments * window);
+  const bool too_long = are_too_many(not_followed(few, tried), few.segments(tried.length).windows.size());
+  return follow_in_segments(model, data, (too_long ? kShortestSegments : kFirstSegments) * window);
 }
 
-double longer_part(double share) {
-  const auto* next = std::upper_bound(kTried.begin(), kTried.end(), share);
-  return next == kTried.end() ? 1.0 : *next;
+Followed follow_beginnings(const model::Model& model, const Data& data) {
+  constexpr double kShare = 0.05;
+  Followed beginnings = follow_whole(model, data.beginnings(kShare));
+  beginnings.length = kShare * data.predict.window;
+  return beginnings;
 }
 
-double reach(const model::Model& model, const Data& data) {
-  const Record record =
-      kept(data, key_of("reach", model, data), [&] { return Record().add(reach_of(model, data)); });
-  return RecordReader(record).number();
+Followed follow_at(const model::Model& model, const Data& data, double length) {
+  return length < data.predict.window ? follow_in_segments(model, data, length) : follow_whole(model, data);
 }
 
-double reach_further(const model::Model& model, const Data& data, double part,
-                     const std::vector<Eigen::VectorXd>& x0) {
-  ResultKey key = key_of("reach_further", model, data);
-  key.numbers.add(part).add(x0);
-  const Record record = kept(data, key, [&] {
-    return Record().add(reach_by_steps(model, data, part, {{}, x0}));
-  });
-  return RecordReader(record).number();
+Followed follow_further(const model::Model& model, const Data& data, const Followed& shorter,
+                        bool in_any_case) {
+  if (is_whole(shorter)) {
+    return shorter;
+  }
+  Level level = level_of(model, shorter);
+  std::optional<Level> longer = lengthened(model, data, level, in_any_case);
+  return std::move(longer ? longer->followed : level.followed);
 }
 
 }  // namespace plumbline::validation

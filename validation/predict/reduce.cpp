@@ -45,6 +45,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       const Eigen::VectorXd Qtr = Q.transpose() * r;
       const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
       out.curved = predictor.is_curved();
+      out.expansion = predictor.expansion(window, lin.Jx);
       out.raw_sse = r.squaredNorm();
       out.sse = out.raw_sse - Qtr.squaredNorm();
       out.square = predictor.squares(window, lin.r - Q.topRows(rows) * Qtr);

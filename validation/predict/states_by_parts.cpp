@@ -1,13 +1,13 @@
 #include "validation/predict/states_by_parts.h"
 
 #include <algorithm>
-
-#include "validation/predict/reach.h"
+#include <array>
 
 namespace plumbline::validation {
 namespace {
 
-constexpr double kFirstPart = 0.1;
+/// Of the windows' lengths, tried one after the other before the whole.
+constexpr std::array<double, 6> kParts{0.1, 0.2, 0.35, 0.5, 0.65, 0.8};
 
 /// Those of the windows that are well at the floor and settled there: a beginning that is nearly at it may be
 /// in a minimum that leads nowhere.
@@ -97,13 +97,11 @@ ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramete
                  const Eigen::VectorXd& theta) {
   const std::size_t count = pool.data().windows.size();
   ByParts found{{theta, {}}, {std::vector<double>(count, 0.0), std::vector<Eigen::VectorXd>(count)}, {}};
-  double share = kFirstPart;
-  while (share < 1.0) {
+  for (const double share : kParts) {
     const Data data = pool.data().beginnings(share);
     PredictorPool part(pool.model(), data);
     const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, found.at);
     keep(data, std::vector<double>(count, share), found.at, reduced, data.all_windows(), found.grown);
-    share = longer_part(share);
   }
   std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, found.at);
   InitialStates states(pool, parameters, {});

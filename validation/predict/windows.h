@@ -22,6 +22,7 @@ struct Window {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
   std::vector<int> events{};  ///< of the trial's contact events those inside
+  bool continues = false;     ///< a segment that begins where the one before it ends, maybe in contact
 };
 
 /// A window through stance begins this long before touchdown and ends this long after lift-off, s.
@@ -49,6 +50,13 @@ struct PredictOptions {
 /// windows that begin in a flight are kept. Throws InputError when a trial has fewer samples than one window,
 /// or a start and no flight.
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options);
+
+/// The window in segments (multiple shooting; Bock, "Numerical treatment of inverse problems in chemical
+/// reaction kinetics", 1981): cut in two, and these again, until none is longer than one and a half times
+/// `length` s or would be shorter than the shortest window. A cut is made within a tenth of the middle, as
+/// far as it can be from where a contact switch changes. Segments of a shorter length lie within those of a
+/// longer one. Of a trial with a start the first alone: where the others begin no sensor tells.
+std::vector<Window> segments_of(const Window& window, const Trial& trial, double length);
 
 /// One parameter that may move.
 struct FreeParameter {
@@ -125,6 +133,10 @@ class Predictor {
   /// Is the window predicted last far from linear in where it begins? Through touchdown and lift-off, and
   /// where the model has stops or play.
   bool is_curved() const { return !trial_.switches.empty() || !jumps_.empty(); }
+  /// What an error of one deviation in a position at the window's start becomes at most in the channels that
+  /// show positions, in floors: about 1 where errors stay as they are. Through stiff contacts it may be
+  /// thousands, and the linearisation then holds for errors far below a floor only.
+  double expansion(const Window& window, const Eigen::MatrixXd& Jx) const;
   /// Rate evaluations so far.
   long evaluations() const { return evaluations_; }
 

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "simulator/model/robot_file.h"
 #include "validation/compare/rung_name.h"
@@ -113,11 +115,11 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
 
 std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, const Progress& progress) {
   for (Rung& rung : ladder) {
-    if (rung.part >= 1.0) {
+    if (std::isinf(rung.length)) {
       continue;
     }
     if (&rung != &ladder.front() && &rung != &ladder.back()) {
-      rung.name += fmt::format(" ({:.0f} % of each window)", 100.0 * rung.part);
+      rung.name += fmt::format(" (windows of {:.3g} s)", rung.length);
       continue;
     }
     progress("whole windows: " + rung.name, 0.0);
@@ -125,7 +127,7 @@ std::vector<Rung> on_whole_windows(std::vector<Rung> ladder, const Data& data, c
     PredictorPool pool(fitted_model(rung.stage), data);
     rung.stage.estimate = estimate_states(pool);
     rung.stage.estimate.theta = theta;
-    rung.part = 1.0;
+    rung.length = std::numeric_limits<double>::infinity();
   }
   return ladder;
 }

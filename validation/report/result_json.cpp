@@ -1,6 +1,7 @@
 #include "validation/report/result_json.h"
 
 #include "validation/diagnose/own_parameters.h"
+#include "validation/report/json_number.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::validation {
@@ -147,7 +148,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   }
   for (const Rung& rung : diagnosis.ladder) {
     json["ladder"].push_back({{"name", rung.name},
-                              {"part", rung.part},
+                              {"length", json_number(rung.length)},
                               {"train", rung.train()},
                               {"held_out", rung.held_out()},
                               {"foretold", rung.foretold()}});

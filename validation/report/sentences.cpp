@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace plumbline::validation {
 namespace {
 
@@ -92,31 +94,31 @@ std::string finding_sentences(const Finding& finding, Verdict verdict) {
 
 namespace {
 
-std::string of_beginnings(const Diagnosis& diagnosis) {
-  const double first = diagnosis.ladder.front().part;
-  const double last = diagnosis.ladder.back().part;
-  if (first >= 1.0) {
+std::string of_segments(const Diagnosis& diagnosis) {
+  const double first = diagnosis.ladder.front().length;
+  const double last = diagnosis.ladder.back().length;
+  if (std::isinf(first)) {
     return "";
   }
   const std::string where = fmt::format(
-      "As given the model loses the motion: it was diagnosed on the first {:.0f} % of each window.",
-      100.0 * first);
-  if (last >= 1.0) {
+      "As given the model loses the motion: it was diagnosed on windows of about {:.2g} s, through contact too.",
+      first);
+  if (std::isinf(last)) {
     return where + " With what was found the last error is that of the whole windows.";
   }
-  return where + fmt::format(" What was found was followed over the first {:.0f} %.", 100.0 * last);
+  return last > first ? where + fmt::format(" What was found was followed over {:.2g} s.", last) : where;
 }
 
 }  // namespace
 
 std::string part_sentence(const Diagnosis& diagnosis) {
-  std::string said = of_beginnings(diagnosis);
+  std::string said = of_segments(diagnosis);
   if (diagnosis.cut_windows > 0) {
     said += fmt::format(
-        "{}{} of {} windows end{} early: where the motion runs to behind that depends more finely on where "
-        "it begins than can be searched.",
+        "{}{} of {} windows {} not followed to {} end in one piece: where the motion runs to depends more "
+        "finely on where it begins than can be searched.",
         said.empty() ? "" : " ", diagnosis.cut_windows, diagnosis.windows,
-        diagnosis.cut_windows == 1 ? "s" : "");
+        diagnosis.cut_windows == 1 ? "is" : "are", diagnosis.cut_windows == 1 ? "its" : "their");
   }
   return said;
 }

@@ -1,0 +1,65 @@
+// How far models of MABEL can be followed through a recorded hop.
+#include <gtest/gtest.h>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "validation/hopping/hop_run.h"
+#include "validation/hopping/hopping_file.h"
+#include "validation/hopping/recorded_trial.h"
+#include "validation/predict/initial_states.h"
+#include "validation/predict/reach.h"
+
+namespace plumbline::validation {
+namespace {
+
+model::Model mabel(const std::string& name) {
+  return model::read_model(PLUMBLINE_ROOT "/robots/mabel/" + name, model::known_effects());
+}
+
+/// Two hops of the model with stretching cables.
+Data recorded_hops() {
+  const model::Model machine = mabel("mabel_planar.yaml");
+  HopOptions options;
+  options.hops = 2;
+  options.trace = true;
+  const HopRun run = hop(machine, read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml"), {}, options);
+  return {{recorded_trial(machine, run.trace, 1)}, {}};
+}
+
+// Without the cables' stretch the motion is lost soon after each window's beginning, and no search over the
+// whole of it settles.
+TEST(FollowedHops, TheRigidModelFollowsShortSegmentsOnly) {
+  const Data data = recorded_hops();
+  const Followed rigid = follow(mabel("mabel_planar_rigid.yaml"), data);
+  EXPECT_FALSE(is_whole(rigid));
+  EXPECT_LT(rigid.length, 0.1 * data.predict.window);
+  EXPECT_GT(rigid.data.windows.size(), 4 * data.windows.size());
+  EXPECT_EQ(rigid.x0.size(), rigid.data.windows.size());
+}
+
+// In the midst of a stance the encoders hardly tell how deep a foot is in the ground and how hard a pulley is
+// in its stop; where the segment before ends tells it.
+TEST(FollowedHops, SegmentsInStanceBeginWhereTheOnesBeforeEnd) {
+  const Data segments = recorded_hops().segments(0.03);
+  const model::Model machine = mabel("mabel_planar.yaml");
+  PredictorPool pool(machine, segments);
+  const std::vector<FreeParameter> none;
+  InitialStates states(pool, none, {});
+  Point measured;
+  const std::size_t astray = above_floor(segments, states.settle_all(kRoughly, measured)).size();
+  Point in_turn;
+  const std::size_t left = above_floor(segments, states.settle_in_turn(kRoughly, in_turn)).size();
+  EXPECT_GT(20 * astray, segments.windows.size());
+  EXPECT_LT(4 * left, astray);
+}
+
+TEST(FollowedHops, SegmentsGrowToWholeWindowsWithTheRightModel) {
+  const Data data = recorded_hops();
+  const model::Model machine = mabel("mabel_planar.yaml");
+  const Followed grown = follow_further(machine, data, follow_at(machine, data, 0.03), false);
+  EXPECT_TRUE(is_whole(grown));
+  EXPECT_LE(not_followed(data, grown), 1U);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,106 @@
+#include "validation/diagnose/by_segments.h"
+
+#include <utility>
+
+#include "validation/diagnose/choose.h"
+#include "validation/diagnose/diagnoser.h"
+#include "validation/diagnose/finish.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// The segments once more with what is found, or longer ones if it can be followed so far; where it is at the
+/// floor in any case.
+Followed followed_further(const Data& data, const Followed& segments, bool in_any_case,
+                          const Progress& progress, const Diagnosis& diagnosis) {
+  progress("how far the model can be followed", 0.0);
+  return follow_further(fitted_model(diagnosis.final_stage), data, segments, in_any_case);
+}
+
+class BySegments {
+ public:
+  BySegments(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
+             const Progress& progress, Diagnosis& diagnosis)
+      : catalogue_(catalogue), data_(data), options_(options), progress_(progress), diagnosis_(diagnosis) {
+    // Windows that expand errors a thousandfold hardly come below it.
+    options_.at_floor = options.nothing;
+  }
+
+  Followed run(const model::Model& model, Followed followed) {
+    if (!Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_)) {
+      diagnosis_ = {};
+      followed = follow_beginnings(model, data_);
+      Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+      if (!names_more(followed)) {
+        return followed;
+      }
+    }
+    for (bool is_new = true; !is_whole(followed);) {
+      segments_ = {followed.data, diagnosis_.final_stage.estimate.x0, followed.length};
+      const bool explained = is_below(options_.finished, diagnosis_.final_stage.estimate, followed.data);
+      Followed further = followed_further(data_, segments_, explained, progress_, diagnosis_);
+      const bool is_longer = further.length > followed.length;
+      if (is_new || is_longer) {
+        followed = std::move(further);
+        Diagnoser(catalogue_, followed, options_, progress_).further_on(diagnosis_);
+        is_new = is_longer;
+        continue;
+      }
+      if (!names_more(followed)) {
+        return followed;
+      }
+      is_new = true;
+    }
+    grow_anew(followed);
+    names_more(followed);
+    return followed;
+  }
+
+ private:
+  bool names_more(const Followed& followed) {
+    const std::size_t named = diagnosis_.accepted.size();
+    Diagnoser(catalogue_, followed, options_, progress_).look_further(diagnosis_);
+    const bool more = diagnosis_.accepted.size() > named;
+    if (more) {
+      drop_superfluous(followed.data, options_, progress_, diagnosis_);
+    }
+    return more;
+  }
+
+  /// Above the floor on whole windows: once more from the segments that they grew from, with the values that
+  /// were found since. A window may have grown into a minimum beside its own with those before. The better
+  /// counts.
+  void grow_anew(Followed& followed) {
+    if (is_below(options_.at_floor, diagnosis_.final_stage.estimate, followed.data)) {
+      return;
+    }
+    Followed anew = followed_further(data_, segments_, true, progress_, diagnosis_);
+    if (!is_whole(anew)) {
+      return;
+    }
+    Diagnosis other = diagnosis_;
+    Diagnoser(catalogue_, anew, options_, progress_).further_on(other);
+    if (judged(other.final_stage.estimate, anew.data) <
+        judged(diagnosis_.final_stage.estimate, followed.data)) {
+      diagnosis_ = std::move(other);
+      followed = std::move(anew);
+    }
+  }
+
+  const effects::Catalogue& catalogue_;
+  const Data& data_;
+  DiagnoseOptions options_;
+  const Progress& progress_;
+  Diagnosis& diagnosis_;
+  Followed segments_{data_, {}, 0.0};  // that were followed last, before the whole windows
+};
+
+}  // namespace
+
+Followed diagnose_by_segments(const model::Model& model, const effects::Catalogue& catalogue,
+                              const Data& data, const Followed& segments, const DiagnoseOptions& options,
+                              const Progress& progress, Diagnosis& diagnosis) {
+  return BySegments(catalogue, data, options, progress, diagnosis).run(model, segments);
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,238 @@
+#include "validation/diagnose/diagnoser.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "validation/diagnose/accept.h"
+#include "validation/diagnose/choose.h"
+#include "validation/diagnose/findings.h"
+#include "validation/diagnose/finish.h"
+#include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/promise.h"
+#include "validation/diagnose/revise.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// Rung::length.
+double length_of(const Followed& followed) {
+  return is_whole(followed) ? std::numeric_limits<double>::infinity() : followed.length;
+}
+
+}  // namespace
+
+Diagnoser::Diagnoser(const effects::Catalogue& catalogue, const Followed& followed,
+                     const DiagnoseOptions& options, const Progress& progress)
+    : catalogue_(catalogue),
+      data_(followed.data),
+      x0_(followed.x0),
+      length_(length_of(followed)),
+      options_(options),
+      progress_(progress) {}
+
+void Diagnoser::run(const model::Model& model, Diagnosis& diagnosis) {
+  start(model, diagnosis);
+  const Rung given = diagnosis.ladder.front();
+  const Stage open = opened(given.stage);
+  if (open.parameters.empty()) {
+    look(options_.most_effects, diagnosis);
+  } else {
+    look_with_own_numbers(given, {"own parameters fitted", fit_own(open), length_}, diagnosis);
+  }
+}
+
+bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosis) {
+  start(model, diagnosis);
+  const Rung given = diagnosis.ladder.front();
+  const Stage open = opened(given.stage);
+  if (open.parameters.empty()) {
+    return true;
+  }
+  const bool promising = promises_much(open);
+  if (promising) {
+    restart({given, {"own parameters fitted", fit_own(open), length_}}, diagnosis);
+  }
+  return promising;
+}
+
+void Diagnoser::further_on(Diagnosis& diagnosis) {
+  progress_(std::isinf(length_) ? "whole windows" : fmt::format("windows of {:.2g} s", length_), 0.0);
+  const Stage& before = diagnosis.final_stage;
+  take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
+       diagnosis);
+  open_own_numbers(diagnosis);
+  if (diagnosis.accepted.empty()) {
+    diagnosis.bare_rungs = diagnosis.ladder.size();
+  }
+}
+
+void Diagnoser::look_further(Diagnosis& diagnosis) {
+  look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
+}
+
+void Diagnoser::start(const model::Model& model, Diagnosis& diagnosis) {
+  progress_("the model as given", 0.0);
+  Stage& stage = diagnosis.final_stage;
+  stage.model = model;
+  PredictorPool pool(model, data_);
+  const Estimate given = estimate_states(pool, x0_);
+  diagnosis.ladder.push_back({"as given", {model, {}, given}, length_});
+  stage.estimate = given;
+}
+
+Stage Diagnoser::opened(const Stage& given) const {
+  return is_below(options_.at_floor, given.estimate, data_)
+             ? given
+             : with_open_numbers(given, 0, options_.parameter_width, data_);
+}
+
+double Diagnoser::enough() const { return std::isinf(length_) ? options_.at_floor : options_.finished; }
+
+void Diagnoser::look(int most, Diagnosis& diagnosis) {
+  for (int round = 0; round < most; ++round) {
+    if (is_below(enough(), diagnosis.final_stage.estimate, data_) || !step(diagnosis, round)) {
+      break;
+    }
+  }
+  revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
+  conclude(data_, options_, diagnosis);
+}
+
+void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
+  Diagnosis anew;
+  anew.ladder = ladder;
+  anew.bare_rungs = ladder.size();
+  anew.final_stage = ladder.back().stage;
+  diagnosis = std::move(anew);
+}
+
+void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
+  if (!explains_nearly_all(given, fitted)) {
+    look(options_.most_as_stated, diagnosis);
+    if (!speaks_for_stated(diagnosis)) {
+      restart({given, fitted}, diagnosis);
+      look(options_.most_effects, diagnosis);
+    }
+    return;
+  }
+  restart({given, fitted}, diagnosis);
+  look(options_.most_effects, diagnosis);
+  if (diagnosis.verdict == Verdict::unexplained ||
+      (diagnosis.verdict == Verdict::missing && evidence(diagnosis) < -std::log(options_.evidence))) {
+    return;
+  }
+  Tried first = std::move(first_);
+  Diagnosis stated;
+  restart({given}, stated);
+  look(options_.most_as_stated, stated);
+  if (speaks_for_stated(stated)) {
+    diagnosis = std::move(stated);
+  } else {
+    first_ = std::move(first);
+  }
+}
+
+bool Diagnoser::explains_nearly_all(const Rung& given, const Rung& fitted) const {
+  constexpr double kLeft = 0.05;
+  const double before = judged(given.stage.estimate, data_);
+  const double after = judged(fitted.stage.estimate, data_);
+  return before > options_.finished && after * after - 1.0 < kLeft * (before * before - 1.0);
+}
+
+double Diagnoser::evidence(const Diagnosis& diagnosis) const {
+  return evidence_for_stated(diagnosis.final_stage, data_, options_.parameter_width);
+}
+
+bool Diagnoser::speaks_for_stated(const Diagnosis& diagnosis) const {
+  return diagnosis.verdict == Verdict::nothing_missing ||
+         (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
+}
+
+void Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
+  const Stage& stage = diagnosis.final_stage;
+  if (is_below(enough(), stage.estimate, data_)) {
+    return;
+  }
+  const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
+  if (open.parameters.size() == stage.parameters.size() || !promises_much(open)) {
+    return;
+  }
+  const Stage fitted = fit_own(open);
+  if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
+    take("own parameters fitted", fitted, diagnosis);
+  }
+}
+
+void Diagnoser::take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const {
+  diagnosis.ladder.push_back({name, stage, length_});
+  replace_last(stage, diagnosis);
+}
+
+void Diagnoser::replace_last(const Stage& stage, Diagnosis& diagnosis) const {
+  set_values(stage, data_, diagnosis.accepted);
+  diagnosis.final_stage = stage;
+  diagnosis.ladder.back().stage = stage;
+}
+
+bool Diagnoser::promises_much(const Stage& open) const {
+  constexpr double kMuch = 0.25;
+  const Eigen::VectorXd theta = values_of(open.model, open.parameters);
+  const Eigen::VectorXd units = search_units(open.parameters, theta);
+  const std::vector<int> windows = data_.all_windows();
+  PredictorPool pool(open.model, data_);
+  const std::vector<Reduced> reduced = reduce(pool, windows, open.parameters, theta, open.estimate.x0, units);
+  const Sum train = sum_of(reduced, windows, data_, Role::train);
+  std::vector<Eigen::Index> all(open.parameters.size());
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  const Promise promise =
+      promise_of(train, sum_of(reduced, windows, data_, Role::held_out), all,
+                 prior(open.parameters, units, theta), room(open.parameters, theta, units));
+  const double before = train.sse / train.samples;
+  return before - promise.train > kMuch * (before - 1.0);
+}
+
+Stage Diagnoser::fit_own(const Stage& open) const {
+  progress_("the model's own parameters", 0.0);
+  constexpr double kTolerance = 1e-4;
+  return fitted_anew(open, data_, open.estimate.x0, kTolerance);
+}
+
+std::vector<std::string> Diagnoser::names_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> names;
+  names.reserve(findings.size());
+  for (const Finding& finding : findings) {
+    names.push_back(finding.label());
+  }
+  return names;
+}
+
+bool Diagnoser::step(Diagnosis& diagnosis, int round) {
+  Tried tried = try_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_,
+                               options_, progress_);
+  const Choice choice = choose(tried.stage, tried.refits, data_, options_);
+  const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
+  diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
+  if (choice.named >= 0) {
+    accept(tried, choice, data_, diagnosis);
+  }
+  diagnosis.leads.clear();
+  for (const RankRow& row : rows) {
+    if (row.refitted && !row.remark.empty()) {
+      diagnosis.leads.push_back(row);
+    }
+  }
+  if (diagnosis.ranking.empty()) {
+    diagnosis.ranking = rows;
+  }
+  if (round == 0) {
+    first_ = std::move(tried);
+  }
+  return choice.named >= 0;
+}
+
+}  // namespace plumbline::validation
