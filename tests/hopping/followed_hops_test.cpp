@@ -17,12 +17,12 @@ model::Model mabel(const std::string& name) {
 }
 
 /// Two hops of the model with stretching cables.
-Data recorded_hops() {
+Data recorded_hops(const HopStart& start = {}) {
   const model::Model machine = mabel("mabel_planar.yaml");
   HopOptions options;
   options.hops = 2;
   options.trace = true;
-  const HopRun run = hop(machine, read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml"), {}, options);
+  const HopRun run = hop(machine, read_hopping(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml"), start, options);
   return {{recorded_trial(machine, run.trace, 1)}, {}};
 }
 
@@ -40,7 +40,7 @@ TEST(FollowedHops, TheRigidModelFollowsShortSegmentsOnly) {
 // In the midst of a stance the encoders hardly tell how deep a foot is in the ground and how hard a pulley is
 // in its stop; where the segment before ends tells it.
 TEST(FollowedHops, SegmentsInStanceBeginWhereTheOnesBeforeEnd) {
-  const Data segments = recorded_hops().segments(0.03);
+  const Data segments = recorded_hops({0.04, -0.4, 0.0}).segments(0.03);
   const model::Model machine = mabel("mabel_planar.yaml");
   PredictorPool pool(machine, segments);
   const std::vector<FreeParameter> none;
@@ -49,14 +49,35 @@ TEST(FollowedHops, SegmentsInStanceBeginWhereTheOnesBeforeEnd) {
   const std::size_t astray = above_floor(segments, states.settle_all(kRoughly, measured)).size();
   Point in_turn;
   const std::size_t left = above_floor(segments, states.settle_in_turn(kRoughly, in_turn)).size();
-  EXPECT_GT(20 * astray, segments.windows.size());
-  EXPECT_LT(4 * left, astray);
+  EXPECT_GT(10 * astray, segments.windows.size());
+  EXPECT_EQ(left, 0U);
+}
+
+// A stance of 0.1 s expands errors thousandfold: over all of it the search ends in a minimum that is not the
+// machine's.
+TEST(FollowedHops, AStanceIsSearchedFromItsBeginning) {
+  const Data segments = recorded_hops().segments(0.1);
+  const model::Model machine = mabel("mabel_planar.yaml");
+  PredictorPool pool(machine, segments);
+  const std::vector<FreeParameter> none;
+  const Eigen::VectorXd nothing;
+  StateSearch search(pool, 0, none, nothing, nothing);
+  Eigen::VectorXd start;
+  pool.with(0, none, nothing,
+            [&](Predictor& predictor) { start = predictor.search_start(segments.windows[0]); });
+  Settled at_once = search.from(start);
+  search.settle(kRoughly, at_once);
+  EXPECT_GT(at_once.reduced.raw_sse, 100.0 * readings(segments, 0));
+  EXPECT_FALSE(is_above_floor(segments, 0, search.grown(start, kRoughly).reduced.raw_sse, 1.0));
 }
 
 TEST(FollowedHops, SegmentsGrowToWholeWindowsWithTheRightModel) {
   const Data data = recorded_hops();
   const model::Model machine = mabel("mabel_planar.yaml");
-  const Followed grown = follow_further(machine, data, follow_at(machine, data, 0.03), false);
+  Followed grown = follow_at(machine, data, 0.03);
+  for (int doublings = 0; doublings < 5 && !is_whole(grown); ++doublings) {
+    grown = follow_further(machine, data, grown, false);
+  }
   EXPECT_TRUE(is_whole(grown));
   EXPECT_LE(not_followed(data, grown), 1U);
 }

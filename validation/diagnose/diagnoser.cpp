@@ -155,7 +155,7 @@ bool Diagnoser::speaks_for_stated(const Diagnosis& diagnosis) const {
 
 void Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   const Stage& stage = diagnosis.final_stage;
-  if (is_below(enough(), stage.estimate, data_)) {
+  if (is_below(options_.at_floor, stage.estimate, data_)) {
     return;
   }
   const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);

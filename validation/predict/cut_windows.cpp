@@ -181,4 +181,14 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
   return windows;
 }
 
+Window beginning_of(const Window& window, const Trial& trial, double share) {
+  Window part = window;
+  part.count = std::max<Eigen::Index>(2, std::lround(share * static_cast<double>(window.count)));
+  const auto is_behind = [&](int e) {
+    return trial.contact_events[static_cast<std::size_t>(e)].sample >= part.first + part.count;
+  };
+  part.events.erase(std::remove_if(part.events.begin(), part.events.end(), is_behind), part.events.end());
+  return part;
+}
+
 }  // namespace plumbline::validation

@@ -89,6 +89,11 @@ struct Reduced {
   Eigen::MatrixXd channel_slopes;
 };
 
+/// Columns are d/d(search) of the parameters that are `moving`, times `slopes` (search_slopes). Throws
+/// std::runtime_error where the window cannot be integrated from x0.
+Reduced reduce(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0,
+               const std::vector<FreeParameter>& moving, const Eigen::VectorXd& slopes);
+
 /// One for each window in `windows`; columns are d/d(search)/unit. With empty units the parameters have the
 /// values theta and no columns.
 std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows,

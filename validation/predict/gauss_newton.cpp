@@ -172,7 +172,7 @@ class Search {
     if (data_.has_segments()) {
       reduced_ = states_.reduce_some(data_.all_windows(), here_);
       states_.settle(curved(reduced_), {}, here_, reduced_);
-      states_.settle_lost(typical(reduced_), {}, Point(here_), here_, reduced_);
+      states_.settle_lost(typical(reduced_), {}, false, Point(here_), here_, reduced_);
     } else {
       reduced_ = states_.reduce_at(here_);
       states_.settle(curved(reduced_), {}, here_, reduced_);
@@ -190,7 +190,7 @@ class Search {
       at_end = at_end || slow == kSlow;
     }
     if (data_.has_segments()) {
-      states_.settle_lost(typical(reduced_), {}, Point(here_), here_, reduced_);
+      states_.settle_lost(typical(reduced_), kRoughly, true, Point(here_), here_, reduced_);
     }
     states_.take_last_step(here_, reduced_);
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
@@ -245,7 +245,7 @@ class Search {
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
       if (data_.has_segments()) {
-        states_.settle_lost(promised(there), {}, here_, there, next);
+        states_.settle_lost(promised(there), {}, false, here_, there, next);
       }
       if (!is_finite(next)) {
         return std::numeric_limits<double>::infinity();

@@ -1,6 +1,5 @@
 #include "validation/predict/initial_states.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,49 +8,6 @@
 
 namespace plumbline::validation {
 namespace {
-
-/// The steps of one window. One that made it worse is damped after Marquardt, which turns it away from what
-/// the window hardly tells, where a straight line leads astray first; or merely shortened.
-class StateSteps {
- public:
-  explicit StateSteps(bool straight) : straight_(straight) {}
-  bool is_at_end() const { return straight_ ? share_ < kShortest : damping_ > kMost; }
-  void after(bool better) {
-    share_ = better ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
-    if (better) {
-      damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
-    } else {
-      damping_ = std::max(kFactor * damping_, kFirst);
-    }
-  }
-  /// share * shift, or (H + damping diag(H)) step = H shift.
-  Eigen::VectorXd step(const Reduced& one) const {
-    if (straight_ || damping_ == 0.0) {
-      return (straight_ ? share_ : 1.0) * one.x_shift;
-    }
-    Eigen::MatrixXd H = one.x_H;
-    H.diagonal() *= 1.0 + damping_;
-    return H.ldlt().solve(one.x_H * one.x_shift);
-  }
-
- private:
-  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
-  bool straight_;
-  double share_ = 1.0, damping_ = 0.0;
-};
-
-/// Squared residuals of a window that begins at x0, and of what is known of x0; r are those of the window.
-/// Infinite where it cannot be integrated from there.
-double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0, Eigen::VectorXd& r) {
-  try {
-    r = predictor.residual(window, x0);
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return r.squaredNorm() + predictor.anchor(window, x0, r).r.squaredNorm();
-}
 
 /// Windows that follow each other in time without a gap, each in the order of time: a run begins where a
 /// window does not continue another one.
@@ -85,10 +41,6 @@ std::vector<int> curved(const std::vector<Reduced>& reduced) {
   return some;
 }
 
-bool is_settled(const Reduced& reduced, const Settling& settling) {
-  return reduced.raw_sse <= (1.0 + settling.much) * reduced.sse;
-}
-
 void InitialStates::begin(Point& point) {
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
@@ -105,16 +57,8 @@ std::vector<Reduced> InitialStates::reduce_at(const Point& point) {
   return reduce(pool_, pool_.data().all_windows(), parameters_, point.theta, point.x0, units_);
 }
 
-Reduced InitialStates::reduce_if_it_runs(int window, const Point& point) {
-  try {
-    return reduce(pool_, {window}, parameters_, point.theta, point.x0, units_).front();
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    Reduced none;
-    none.raw_sse = none.sse = std::numeric_limits<double>::infinity();
-    return none;
-  }
+StateSearch InitialStates::search(int window, const Point& point) {
+  return {pool_, window, parameters_, point.theta, units_};
 }
 
 std::vector<Reduced> InitialStates::reduce_those_that_run(const std::vector<int>& windows,
@@ -122,25 +66,7 @@ std::vector<Reduced> InitialStates::reduce_those_that_run(const std::vector<int>
   std::vector<Reduced> all(windows.size());
   parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    all[at] = reduce_if_it_runs(windows[at], point);
-  });
-  return all;
-}
-
-std::vector<Reduced> InitialStates::reduce_those_better(const std::vector<int>& windows, const Point& point,
-                                                        const std::vector<Reduced>& than) {
-  std::vector<Reduced> all(windows.size());
-  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    const int w = windows[at];
-    const auto place = static_cast<std::size_t>(w);
-    pool_.with(w, parameters_, point.theta, [&](Predictor& predictor) {
-      Eigen::VectorXd r;
-      all[at].raw_sse = cost(predictor, pool_.data().windows[place], point.x0[place], r);
-    });
-    if (!(than[place].raw_sse <= all[at].raw_sse)) {
-      all[at] = reduce_if_it_runs(w, point);
-    }
+    all[at] = search(windows[at], point).from(point.x0[static_cast<std::size_t>(windows[at])]).reduced;
   });
   return all;
 }
@@ -166,34 +92,16 @@ std::vector<Reduced> InitialStates::reduce_or_begin_anew(Point& point) {
   return all;
 }
 
-void InitialStates::settle(std::vector<int> open, const Settling& settling, Point& point,
+void InitialStates::settle(const std::vector<int>& windows, const Settling& settling, Point& point,
                            std::vector<Reduced>& reduced) {
-  std::vector<StateSteps> steps(reduced.size(), StateSteps(settling.straight));
-  for (int i = 0; i < settling.steps; ++i) {
-    const auto is_done = [&](int w) {
-      const auto at = static_cast<std::size_t>(w);
-      return is_settled(reduced[at], settling) || steps[at].is_at_end();
-    };
-    open.erase(std::remove_if(open.begin(), open.end(), is_done), open.end());
-    if (open.empty()) {
-      return;
-    }
-    Point next = point;
-    for (const int w : open) {
-      const auto at = static_cast<std::size_t>(w);
-      next.x0[at] += steps[at].step(reduced[at]);
-    }
-    const std::vector<Reduced> now = reduce_those_better(open, next, reduced);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      const auto at = static_cast<std::size_t>(open[k]);
-      const bool better = now[k].raw_sse < reduced[at].raw_sse;
-      steps[at].after(better);
-      if (better) {
-        reduced[at] = now[k];
-        point.x0[at] = next.x0[at];
-      }
-    }
-  }
+  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
+    const int w = windows[static_cast<std::size_t>(i)];
+    const auto at = static_cast<std::size_t>(w);
+    Settled one{std::move(point.x0[at]), std::move(reduced[at])};
+    search(w, point).settle(settling, one);
+    point.x0[at] = std::move(one.x0);
+    reduced[at] = std::move(one.reduced);
+  });
 }
 
 std::optional<Eigen::VectorXd> InitialStates::end_of_the_one_before(int window, int before,
@@ -219,18 +127,20 @@ std::optional<Eigen::VectorXd> InitialStates::end_of_the_one_before(int window, 
   return end;
 }
 
-// Works on a copy: windows of other runs are settled at the same time.
+void InitialStates::take_if_better(int window, Settled found, Point& point, Reduced& reduced) {
+  const auto w = static_cast<std::size_t>(window);
+  if (point.x0[w].size() == 0 || found.reduced.raw_sse < reduced.raw_sse) {
+    point.x0[w] = std::move(found.x0);
+    reduced = std::move(found.reduced);
+  }
+}
+
 void InitialStates::try_start(int window, const Eigen::VectorXd& start, const Settling& settling,
                               Point& point, Reduced& reduced) {
-  const auto w = static_cast<std::size_t>(window);
-  Point one{point.theta, std::vector<Eigen::VectorXd>(point.x0.size())};
-  one.x0[w] = start;
-  std::vector<Reduced> found = reduce_some({window}, one);
-  settle({window}, settling, one, found);
-  if (point.x0[w].size() == 0 || found[w].raw_sse < reduced.raw_sse) {
-    reduced = std::move(found[w]);
-    point.x0[w] = one.x0[w];
-  }
+  StateSearch one = search(window, point);
+  Settled found = one.from(start);
+  one.settle(settling, found);
+  take_if_better(window, std::move(found), point, reduced);
 }
 
 void InitialStates::try_from_before(int window, int before, const Settling& settling, Point& point,
@@ -241,13 +151,17 @@ void InitialStates::try_from_before(int window, int before, const Settling& sett
   }
 }
 
-void InitialStates::try_from_measurements(int window, const Settling& settling, Point& point,
-                                          Reduced& reduced) {
-  Eigen::VectorXd measured;
+void InitialStates::try_grown(int window, const Eigen::VectorXd& start, const Settling& settling,
+                              Point& point, Reduced& reduced) {
+  take_if_better(window, search(window, point).grown(start, settling), point, reduced);
+}
+
+Eigen::VectorXd InitialStates::measured_start(int window, const Point& point) {
+  Eigen::VectorXd start;
   pool_.with(window, parameters_, point.theta, [&](Predictor& predictor) {
-    measured = predictor.search_start(pool_.data().windows[static_cast<std::size_t>(window)]);
+    start = predictor.search_start(pool_.data().windows[static_cast<std::size_t>(window)]);
   });
-  try_start(window, measured, settling, point, reduced);
+  return start;
 }
 
 void InitialStates::in_turn(const std::function<void(int window, int before)>& work) {
@@ -261,36 +175,42 @@ void InitialStates::in_turn(const std::function<void(int window, int before)>& w
   });
 }
 
-std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Point& point) {
+std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Point& point,
+                                                   const std::vector<double>& expected) {
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
   std::vector<Reduced> reduced(data.windows.size());
   in_turn([&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
-    const bool given = point.x0[i].size() > 0;
     reduced[i].raw_sse = reduced[i].sse = std::numeric_limits<double>::infinity();
-    const auto is_lost = [&] { return is_above_floor(data, w, reduced[i].raw_sse); };
-    if (given) {
-      try_start(w, Eigen::VectorXd(point.x0[i]), settling, point, reduced[i]);
+    Eigen::VectorXd start = point.x0[i];
+    if (start.size() > 0) {
+      try_start(w, start, settling, point, reduced[i]);
     }
-    if (is_lost()) {
+    if (is_above_floor(data, w, reduced[i].raw_sse)) {
       try_from_before(w, before, settling, point, reduced[i]);
     }
-    if (is_lost() && !given) {
-      try_from_measurements(w, settling, point, reduced[i]);
+    if (start.size() == 0) {
+      start = measured_start(w, point);
+      if (is_above_floor(data, w, reduced[i].raw_sse)) {
+        try_start(w, start, settling, point, reduced[i]);
+      }
+    }
+    if (is_astray(data, w, reduced[i], expected.empty() ? reduced[i].sse : expected[i])) {
+      try_grown(w, start, settling, point, reduced[i]);
     }
   });
   return reduced;
 }
 
 void InitialStates::settle_lost(const std::vector<double>& promised, const Settling& settling,
-                                const Point& from, Point& point, std::vector<Reduced>& reduced) {
-  constexpr double kKept = 2.0;
+                                bool thoroughly, const Point& from, Point& point,
+                                std::vector<Reduced>& reduced) {
   constexpr std::ptrdiff_t kOneOf = 4;  // where more are lost it is not their states that are wrong
   const Data& data = pool_.data();
   const auto is_lost = [&](int w) {
     const auto i = static_cast<std::size_t>(w);
-    return is_above_floor(data, w, reduced[i].raw_sse) && !(reduced[i].raw_sse <= kKept * promised[i]);
+    return is_astray(data, w, reduced[i], promised[i]);
   };
   const std::vector<int> all = data.all_windows();
   if (kOneOf * std::count_if(all.begin(), all.end(), is_lost) > static_cast<std::ptrdiff_t>(all.size())) {
@@ -305,7 +225,11 @@ void InitialStates::settle_lost(const std::vector<double>& promised, const Settl
       try_from_before(w, before, settling, point, reduced[i]);
     }
     if (is_lost(w)) {
-      try_from_measurements(w, settling, point, reduced[i]);
+      const Eigen::VectorXd start = measured_start(w, point);
+      try_start(w, start, settling, point, reduced[i]);
+      if (thoroughly && is_lost(w)) {
+        try_grown(w, start, settling, point, reduced[i]);
+      }
     }
   });
 }
@@ -357,7 +281,12 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
       const auto at = static_cast<std::size_t>(w);
       shorter.x0[at] = 0.5 * (shorter.x0[at] + from.x0[at]);
     }
-    const std::vector<Reduced> now = reduce_those_better(worse, shorter, after);
+    std::vector<Reduced> now(worse.size());
+    parallel_for(static_cast<int>(worse.size()), pool_.data().threads, [&](int k) {
+      const auto at = static_cast<std::size_t>(worse[static_cast<std::size_t>(k)]);
+      now[static_cast<std::size_t>(k)] =
+          search(static_cast<int>(at), shorter).if_better(shorter.x0[at], after[at]).reduced;
+    });
     for (std::size_t k = 0; k < worse.size(); ++k) {
       const auto at = static_cast<std::size_t>(worse[k]);
       in_vain[at] = now[k].raw_sse < kHelps * after[at].raw_sse ? 0 : in_vain[at] + 1;
@@ -370,26 +299,12 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
 }
 
 void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) {
-  constexpr double kMatters = 1e-3;
   parallel_for(static_cast<int>(reduced.size()), pool_.data().threads, [&](int w) {
     const auto i = static_cast<std::size_t>(w);
-    Reduced& one = reduced[i];
-    const Eigen::VectorXd there = point.x0[i] + one.x_shift;
-    if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
-      point.x0[i] = there;
-      return;
-    }
-    pool_.with(w, parameters_, point.theta, [&](Predictor& predictor) {
-      const Window& window = pool_.data().windows[i];
-      Eigen::VectorXd r;
-      one.sse = cost(predictor, window, there, r);
-      if (one.sse < one.raw_sse) {
-        point.x0[i] = there;
-      } else {
-        one.sse = cost(predictor, window, point.x0[i], r);
-      }
-      one.square = predictor.squares(window, r);
-    });
+    Settled one{std::move(point.x0[i]), std::move(reduced[i])};
+    search(w, point).take_last_step(one);
+    point.x0[i] = std::move(one.x0);
+    reduced[i] = std::move(one.reduced);
   });
 }
 
@@ -399,6 +314,13 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
   std::vector<Reduced> reduced = states.settle_all(settling, at);
   states.take_last_step(at, reduced);
   return reduced;
+}
+
+bool is_astray(const Data& data, int window, const Reduced& reduced, double expected) {
+  constexpr double kKept = 2.0;
+  constexpr double kPromised = 1.5;
+  return is_above_floor(data, window, reduced.raw_sse) &&
+         !(reduced.raw_sse <= kKept * expected && reduced.raw_sse <= kPromised * reduced.sse);
 }
 
 bool is_above_floor(const Data& data, int window, double sse, double fits) {

@@ -59,14 +59,7 @@ Data Data::beginnings(double share) const { return beginnings(std::vector<double
 Data Data::beginnings(const std::vector<double>& shares) const {
   Data copy = *this;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    Window& window = copy.windows[w];
-    const Trial& trial = trials[static_cast<std::size_t>(window.trial)];
-    window.count = std::max<Eigen::Index>(2, std::lround(shares[w] * static_cast<double>(window.count)));
-    const auto is_behind = [&](int e) {
-      return trial.contact_events[static_cast<std::size_t>(e)].sample >= window.first + window.count;
-    };
-    window.events.erase(std::remove_if(window.events.begin(), window.events.end(), is_behind),
-                        window.events.end());
+    copy.windows[w] = beginning_of(windows[w], trials[static_cast<std::size_t>(windows[w].trial)], shares[w]);
   }
   return copy;
 }

@@ -14,34 +14,46 @@ namespace {
 constexpr double kFirstSegments = 1.0 / 16.0;  // of PredictOptions::window
 constexpr double kShortestSegments = 1.0 / 32.0;
 
-/// States of windows, and the squares that they leave; infinite ones where none was found.
-struct Settled {
+/// States of windows, the squares that they leave (infinite ones where none was found), and whether the
+/// search has gone astray there.
+struct SettledWindows {
   std::vector<Eigen::VectorXd> x0;
-  Eigen::VectorXd raw, promised;
+  Eigen::VectorXd raw, astray;
+  bool is_astray(int window) const { return astray[window] != 0.0; }
 };
 
+Record settle_in_turn(const model::Model& model, const Data& data, std::vector<Eigen::VectorXd> x0,
+                      const std::vector<double>& expected) {
+  const std::vector<FreeParameter> as_it_is;
+  PredictorPool pool(model, data);
+  Point at{{}, std::move(x0)};
+  const std::vector<Reduced> reduced =
+      InitialStates(pool, as_it_is, {}).settle_in_turn(kRoughly, at, expected);
+  Eigen::VectorXd raw(static_cast<Eigen::Index>(reduced.size()));
+  Eigen::VectorXd astray = raw;
+  for (const int w : data.all_windows()) {
+    const auto i = static_cast<std::size_t>(w);
+    raw[w] = reduced[i].raw_sse;
+    astray[w] = is_astray(data, w, reduced[i], expected.empty() ? reduced[i].sse : expected[i]) ? 1.0 : 0.0;
+  }
+  return Record().add(at.x0).add(raw).add(astray);
+}
+
 /// All windows of `data` in turn, those with a state from there.
-Settled settled_in_turn(const model::Model& model, const Data& data, const std::vector<Eigen::VectorXd>& x0) {
+SettledWindows settled_in_turn(const model::Model& model, const Data& data,
+                               const std::vector<Eigen::VectorXd>& x0,
+                               const std::vector<double>& expected = {}) {
   ResultKey key = key_of("settle_in_turn", model, data);
-  key.numbers.add(x0);
-  const Record record = kept(data, key, [&] {
-    const std::vector<FreeParameter> as_it_is;
-    PredictorPool pool(model, data);
-    Point at{{}, x0};
-    const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).settle_in_turn(kRoughly, at);
-    Eigen::VectorXd raw(static_cast<Eigen::Index>(reduced.size()));
-    Eigen::VectorXd promised = raw;
-    for (std::size_t w = 0; w < reduced.size(); ++w) {
-      raw[static_cast<Eigen::Index>(w)] = reduced[w].raw_sse;
-      promised[static_cast<Eigen::Index>(w)] = reduced[w].sse;
-    }
-    return Record().add(at.x0).add(raw).add(promised);
-  });
+  key.numbers.add(x0).add(static_cast<double>(expected.size()));
+  for (const double one : expected) {
+    key.numbers.add(one);
+  }
+  const Record record = kept(data, key, [&] { return settle_in_turn(model, data, x0, expected); });
   RecordReader reader(record);
-  Settled settled;
+  SettledWindows settled;
   settled.x0 = reader.vectors();
   settled.raw = reader.vector();
-  settled.promised = reader.vector();
+  settled.astray = reader.vector();
   return settled;
 }
 
@@ -63,7 +75,7 @@ void add(const Window& window, const Eigen::VectorXd& x0, double square, Level& 
   level.square.push_back(square);
 }
 
-double mean_square(const Data& data, int window, const Settled& settled) {
+double mean_square(const Data& data, int window, const SettledWindows& settled) {
   return settled.raw[window] / readings(data, window);
 }
 
@@ -87,22 +99,14 @@ Level trimmed(const Level& level) {
   return kept;
 }
 
-/// Does the next step promise at least a third of the squares, above the floor? Such a search is not at its
-/// end, whatever it says.
-bool is_astray(const Data& data, int window, const Settled& settled) {
-  constexpr double kPromised = 1.5;
-  return is_above_floor(data, window, settled.raw[window]) &&
-         !(settled.raw[window] <= kPromised * settled.promised[window]);
-}
-
 /// In segments of one length, those out that cannot be searched.
 Followed follow_in_segments(const model::Model& model, const Data& data, double length) {
   const Data segments = data.segments(length);
-  const Settled settled = settled_in_turn(model, segments, {});
+  const SettledWindows settled = settled_in_turn(model, segments, {});
   Level some = empty_level(data, length);
   for (const int w : segments.all_windows()) {
     const auto i = static_cast<std::size_t>(w);
-    if (!is_astray(segments, w, settled)) {
+    if (!settled.is_astray(w)) {
       add(segments.windows[i], settled.x0[i], mean_square(segments, w, settled), some);
     }
   }
@@ -139,10 +143,23 @@ std::vector<Eigen::VectorXd> starts_of(const Data& longer, const std::vector<std
   return starts;
 }
 
+/// Squared residuals of longer windows, if their mean squares are those of the worst of their parts.
+std::vector<double> expected_of(const Data& longer, const std::vector<std::vector<std::size_t>>& parts,
+                                const Level& level) {
+  std::vector<double> expected;
+  for (const int w : longer.all_windows()) {
+    double most = 1.0;
+    for (const std::size_t s : parts[static_cast<std::size_t>(w)]) {
+      most = std::max(most, level.square[s]);
+    }
+    expected.push_back(most * readings(longer, w));
+  }
+  return expected;
+}
+
 /// Twice as long. Nothing where too many are lost, unless in any case.
 std::optional<Level> lengthened(const model::Model& model, const Data& data, const Level& level,
                                 bool in_any_case) {
-  constexpr double kTimes = 2.0;  // of mean squares
   const Followed& shorter = level.followed;
   const double length = std::min(data.predict.window, 2.0 * shorter.length);
   const Data longer = data.segments(length);
@@ -150,18 +167,14 @@ std::optional<Level> lengthened(const model::Model& model, const Data& data, con
   for (const Window& window : longer.windows) {
     parts.push_back(inside(window, shorter.data));
   }
-  const Settled settled = settled_in_turn(model, longer, starts_of(longer, parts, shorter));
+  const SettledWindows settled =
+      settled_in_turn(model, longer, starts_of(longer, parts, shorter), expected_of(longer, parts, level));
   Level some = empty_level(data, length);
   std::size_t lost = 0;
   for (const int w : longer.all_windows()) {
     const auto i = static_cast<std::size_t>(w);
-    const double square = mean_square(longer, w, settled);
-    double most = 1.0;
-    for (const std::size_t s : parts[i]) {
-      most = std::max(most, level.square[s]);
-    }
-    if (!is_above_floor(longer, w, settled.raw[w]) || square <= kTimes * most) {
-      add(longer.windows[i], settled.x0[i], square, some);
+    if (!settled.is_astray(w)) {
+      add(longer.windows[i], settled.x0[i], mean_square(longer, w, settled), some);
       continue;
     }
     ++lost;
@@ -177,7 +190,7 @@ std::optional<Level> lengthened(const model::Model& model, const Data& data, con
 
 /// With the present model's states and squares.
 Level level_of(const model::Model& model, const Followed& followed) {
-  const Settled settled = settled_in_turn(model, followed.data, followed.x0);
+  const SettledWindows settled = settled_in_turn(model, followed.data, followed.x0);
   Level level{followed, {}};
   level.followed.x0 = settled.x0;
   for (const int w : followed.data.all_windows()) {

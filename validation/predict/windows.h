@@ -58,6 +58,9 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
 /// longer one. Of a trial with a start the first alone: where the others begin no sensor tells.
 std::vector<Window> segments_of(const Window& window, const Trial& trial, double length);
 
+/// The first `share` of the window, at least two samples, with the contact events in it.
+Window beginning_of(const Window& window, const Trial& trial, double share);
+
 /// One parameter that may move.
 struct FreeParameter {
   model::ParameterId id;

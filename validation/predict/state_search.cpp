@@ -1,0 +1,150 @@
+#include "validation/predict/state_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kLost = std::numeric_limits<double>::infinity();
+
+/// The steps of one window. One that made it worse is damped after Marquardt, which turns it away from what
+/// the window hardly tells, where a straight line leads astray first; or merely shortened.
+class StateSteps {
+ public:
+  explicit StateSteps(bool straight) : straight_(straight) {}
+  bool is_at_end() const { return straight_ ? share_ < kShortest : damping_ > kMost; }
+  void after(bool better) {
+    share_ = better ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
+    if (better) {
+      damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
+    } else {
+      damping_ = std::max(kFactor * damping_, kFirst);
+    }
+  }
+  /// share * shift, or (H + damping diag(H)) step = H shift.
+  Eigen::VectorXd step(const Reduced& one) const {
+    if (straight_ || damping_ == 0.0) {
+      return (straight_ ? share_ : 1.0) * one.x_shift;
+    }
+    Eigen::MatrixXd H = one.x_H;
+    H.diagonal() *= 1.0 + damping_;
+    return H.ldlt().solve(one.x_H * one.x_shift);
+  }
+
+ private:
+  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
+  bool straight_;
+  double share_ = 1.0, damping_ = 0.0;
+};
+
+/// Squared residuals of a window that begins at x0, and of what is known of x0; r are those of the window.
+/// Infinite where it cannot be integrated from there.
+double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0, Eigen::VectorXd& r) {
+  try {
+    r = predictor.residual(window, x0);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return kLost;
+  }
+  return r.squaredNorm() + predictor.anchor(window, x0, r).r.squaredNorm();
+}
+
+}  // namespace
+
+bool is_settled(const Reduced& reduced, const Settling& settling) {
+  return reduced.raw_sse <= (1.0 + settling.much) * reduced.sse;
+}
+
+Settled StateSearch::from(const Eigen::VectorXd& x0) { return from(whole(), x0, true); }
+
+void StateSearch::settle(const Settling& settling, Settled& at) { settle(whole(), true, settling, at); }
+
+Settled StateSearch::if_better(const Eigen::VectorXd& x0, const Reduced& than) {
+  return if_better(whole(), x0, true, than);
+}
+
+void StateSearch::take_last_step(Settled& at) {
+  constexpr double kMatters = 1e-3;
+  Reduced& one = at.reduced;
+  const Eigen::VectorXd there = at.x0 + one.x_shift;
+  if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
+    at.x0 = there;
+    return;
+  }
+  pool_.with(window_, parameters_, theta_, [&](Predictor& predictor) {
+    Eigen::VectorXd r;
+    one.sse = cost(predictor, whole(), there, r);
+    if (one.sse < one.raw_sse) {
+      at.x0 = there;
+    } else {
+      one.sse = cost(predictor, whole(), at.x0, r);
+    }
+    one.square = predictor.squares(whole(), r);
+  });
+}
+
+Settled StateSearch::grown(const Eigen::VectorXd& start, const Settling& settling) {
+  constexpr int kParts = 10;
+  constexpr double kFar = 3.0;  // floors
+  const Data& data = pool_.data();
+  const Trial& trial = data.trials[static_cast<std::size_t>(whole().trial)];
+  Eigen::VectorXd x0 = start;
+  for (int k = 1; k < kParts; ++k) {
+    const double share = static_cast<double>(k) / kParts;
+    const Window part = beginning_of(whole(), trial, share);
+    Settled at = from(part, x0, false);
+    settle(part, false, settling, at);
+    if (at.reduced.raw_sse > kFar * kFar * share * readings(data, window_)) {
+      break;
+    }
+    x0 = at.x0;
+  }
+  Settled at = from(x0);
+  settle(settling, at);
+  return at;
+}
+
+Settled StateSearch::from(const Window& part, const Eigen::VectorXd& x0, bool with_parameters) {
+  Settled at{x0, {}};
+  at.reduced.raw_sse = at.reduced.sse = kLost;
+  const bool is_moving = with_parameters && units_.size() > 0;
+  const std::vector<FreeParameter> moving = is_moving ? parameters_ : std::vector<FreeParameter>();
+  const Eigen::VectorXd slopes = is_moving ? search_slopes(moving, units_, theta_) : Eigen::VectorXd();
+  try {
+    pool_.with(window_, parameters_, theta_,
+               [&](Predictor& predictor) { at.reduced = reduce(predictor, part, x0, moving, slopes); });
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return at;
+  }
+  return at;
+}
+
+Settled StateSearch::if_better(const Window& part, const Eigen::VectorXd& x0, bool with_parameters,
+                               const Reduced& than) {
+  Settled at{x0, {}};
+  pool_.with(window_, parameters_, theta_, [&](Predictor& predictor) {
+    Eigen::VectorXd r;
+    at.reduced.raw_sse = cost(predictor, part, x0, r);
+  });
+  return than.raw_sse <= at.reduced.raw_sse ? at : from(part, x0, with_parameters);
+}
+
+void StateSearch::settle(const Window& part, bool with_parameters, const Settling& settling, Settled& at) {
+  StateSteps steps(settling.straight);
+  for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling) && !steps.is_at_end(); ++i) {
+    Settled next = if_better(part, at.x0 + steps.step(at.reduced), with_parameters, at.reduced);
+    const bool better = next.reduced.raw_sse < at.reduced.raw_sse;
+    steps.after(better);
+    if (better) {
+      at = std::move(next);
+    }
+  }
+}
+
+}  // namespace plumbline::validation
