@@ -42,7 +42,7 @@ class BySegments {
       const bool is_longer = further.length > followed.length;
       if (is_new || is_longer) {
         followed = std::move(further);
-        Diagnoser(catalogue_, followed, options_, progress_).further_on(diagnosis_);
+        go_on(followed, diagnosis_);
         is_new = is_longer;
         continue;
       }
@@ -57,11 +57,19 @@ class BySegments {
   }
 
  private:
+  /// On these, with more own numbers open. Where they did not help on shorter ones something else is missing,
+  /// and they are tried again on whole windows only, before it is looked for.
+  void go_on(const Followed& followed, Diagnosis& diagnosis) {
+    numbers_help_ = Diagnoser(catalogue_, followed, options_, progress_)
+                        .further_on(numbers_help_ || is_whole(followed), diagnosis);
+  }
+
   bool names_more(const Followed& followed) {
     const std::size_t named = diagnosis_.accepted.size();
     Diagnoser(catalogue_, followed, options_, progress_).look_further(diagnosis_);
     const bool more = diagnosis_.accepted.size() > named;
     if (more) {
+      numbers_help_ = true;
       drop_superfluous(followed.data, options_, progress_, diagnosis_);
     }
     return more;
@@ -79,7 +87,7 @@ class BySegments {
       return;
     }
     Diagnosis other = diagnosis_;
-    Diagnoser(catalogue_, anew, options_, progress_).further_on(other);
+    go_on(anew, other);
     if (judged(other.final_stage.estimate, anew.data) <
         judged(diagnosis_.final_stage.estimate, followed.data)) {
       diagnosis_ = std::move(other);
@@ -92,6 +100,7 @@ class BySegments {
   DiagnoseOptions options_;
   const Progress& progress_;
   Diagnosis& diagnosis_;
+  bool numbers_help_ = true;
   Followed segments_{data_, {}, 0.0};  // that were followed last, before the whole windows
 };
 

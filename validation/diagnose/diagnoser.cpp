@@ -60,15 +60,17 @@ bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosi
   return promising;
 }
 
-void Diagnoser::further_on(Diagnosis& diagnosis) {
+bool Diagnoser::further_on(bool with_numbers, Diagnosis& diagnosis) {
   progress_(std::isinf(length_) ? "whole windows" : fmt::format("windows of {:.2g} s", length_), 0.0);
   const Stage& before = diagnosis.final_stage;
   take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
        diagnosis);
-  open_own_numbers(diagnosis);
+  const bool helps = is_below(options_.at_floor, diagnosis.final_stage.estimate, data_) ||
+                     (with_numbers && open_own_numbers(diagnosis));
   if (diagnosis.accepted.empty()) {
     diagnosis.bare_rungs = diagnosis.ladder.size();
   }
+  return helps;
 }
 
 void Diagnoser::look_further(Diagnosis& diagnosis) {
@@ -153,19 +155,19 @@ bool Diagnoser::speaks_for_stated(const Diagnosis& diagnosis) const {
          (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
 }
 
-void Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
+bool Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   const Stage& stage = diagnosis.final_stage;
-  if (is_below(options_.at_floor, stage.estimate, data_)) {
-    return;
-  }
   const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
   if (open.parameters.size() == stage.parameters.size() || !promises_much(open)) {
-    return;
+    return false;
   }
   const Stage fitted = fit_own(open);
-  if (judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_)) {
+  const bool helps =
+      judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_);
+  if (helps) {
     take("own parameters fitted", fitted, diagnosis);
   }
+  return helps;
 }
 
 void Diagnoser::take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const {

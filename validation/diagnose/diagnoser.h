@@ -21,8 +21,9 @@ class Diagnoser {
   /// On segments, with the numbers free at once: what they tell is weighed anew on longer ones. False where
   /// these promise little of what is above the floor: something large is missing, and they stay as stated.
   bool begin_on_segments(const model::Model& model, Diagnosis& diagnosis);
-  /// What was named on other segments, on these.
-  void further_on(Diagnosis& diagnosis);
+  /// What was named on other segments, on these, above the floor with more own numbers open if
+  /// `with_numbers`. Did these help, or were they not needed?
+  bool further_on(bool with_numbers, Diagnosis& diagnosis);
   /// What else is missing here.
   void look_further(Diagnosis& diagnosis);
   /// The first round from the model that nothing was added to; empty where none was needed.
@@ -49,9 +50,8 @@ class Diagnoser {
   double evidence(const Diagnosis& diagnosis) const;
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
   bool speaks_for_stated(const Diagnosis& diagnosis) const;
-  /// Beside what is named, and more of them than on shorter parts: where that alone is not at the floor and
-  /// they help.
-  void open_own_numbers(Diagnosis& diagnosis) const;
+  /// Beside what is named, and more of them than on shorter parts. Do they help?
+  bool open_own_numbers(Diagnosis& diagnosis) const;
   /// A rung, and the values that it gives to what is named.
   void take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const;
   void replace_last(const Stage& stage, Diagnosis& diagnosis) const;

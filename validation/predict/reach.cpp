@@ -218,7 +218,7 @@ Followed follow(const model::Model& model, const Data& data) {
     return follow_whole(model, data);
   }
   // Which length it is shows on a few windows.
-  constexpr std::size_t kFew = 6;  // of each role
+  constexpr std::size_t kFew = 3;  // of each role
   const double window = data.predict.window;
   const Data few = data.thinned(kFew);
   const Followed tried = follow_in_segments(model, few, kFirstSegments * window);

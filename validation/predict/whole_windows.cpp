@@ -1,6 +1,8 @@
 #include "validation/predict/whole_windows.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -27,23 +29,41 @@ bool is_any_curved(const model::Model& model, const Data& data) {
   return any;
 }
 
+/// Settled from the measurements, is it lost? Throws std::runtime_error where it cannot be integrated.
+bool ends_lost(PredictorPool& pool, int window) {
+  const std::vector<FreeParameter> as_it_is;
+  const Eigen::VectorXd none;
+  StateSearch search(pool, window, as_it_is, none, none);
+  Eigen::VectorXd start;
+  pool.with(window, as_it_is, none, [&](Predictor& predictor) {
+    start = predictor.search_start(pool.data().windows[static_cast<std::size_t>(window)]);
+  });
+  Settled at = search.from(start);
+  if (!std::isfinite(at.reduced.raw_sse)) {
+    throw std::runtime_error("a window cannot be integrated");
+  }
+  search.settle(kRoughly, at);
+  return is_lost(pool.data(), window, at.reduced);
+}
+
+/// No more windows are tried than show that it does not.
 bool settles_whole(const model::Model& model, const Data& data) {
   constexpr std::size_t kOneOf = 10;
-  const std::vector<FreeParameter> as_it_is;
   PredictorPool pool(model, data);
-  Point at;
+  std::atomic<std::size_t> lost{0};
+  const auto are_too_many = [&] { return kOneOf * lost > data.windows.size(); };
   try {
-    const std::vector<Reduced> reduced = InitialStates(pool, as_it_is, {}).settle_all(kRoughly, at);
-    const std::vector<int> all = data.all_windows();
-    const auto lost = std::count_if(all.begin(), all.end(), [&](int w) {
-      return is_lost(data, w, reduced[static_cast<std::size_t>(w)]);
+    parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+      if (!are_too_many() && ends_lost(pool, w)) {
+        ++lost;
+      }
     });
-    return kOneOf * static_cast<std::size_t>(lost) <= reduced.size();
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
-    return false;  // it cannot be integrated so far
+    return false;
   }
+  return !are_too_many();
 }
 
 /// Does the next step promise the floor, or what is close to it, above which it is? A straight line's promise
@@ -83,12 +103,7 @@ Shares shares_that_can_be_searched(const model::Model& model, const Data& data) 
 }  // namespace
 
 bool can_be_followed_whole(const model::Model& model, const Data& data) {
-  constexpr std::size_t kFew = 6;  // of each role, on which it shows in a short time that it cannot be
-  const auto settles = [&] {
-    return !is_any_curved(model, data) ||
-           ((data.windows.size() <= 4 * kFew || settles_whole(model, data.thinned(kFew))) &&
-            settles_whole(model, data));
-  };
+  const auto settles = [&] { return !is_any_curved(model, data) || settles_whole(model, data); };
   const Record whole =
       kept(data, key_of("can_be_followed", model, data), [&] { return Record().add(settles() ? 1.0 : 0.0); });
   return RecordReader(whole).number() != 0.0;
