@@ -27,12 +27,21 @@ double zero_of(const model::FootDepth& a, const model::FootDepth& b, double h) {
   return 0.5 * (low + high);
 }
 
-/// A predicted instant that is farther off counts as none, and costs as much as one that is as far off: a
-/// foot that just leaves the ground in one motion and just not in the other must not outweigh all else; s.
+/// A predicted instant that is farther off counts as none, and costs at most as much as one that is as far
+/// off: a foot that just leaves the ground in one motion and just not in the other must not outweigh all
+/// else; s.
 constexpr double kFarthest = 0.01;
 
 /// Slower than this a foot does not cross the surface, it lies on it; m/s.
 constexpr double kSlowest = 1e-4;
+
+/// Where an instant that was not predicted between 0 and `end` counts as: outside of that, as near to `time`
+/// as it can be. Just behind the window's end it would else be as far off as one that does not come at all.
+double unseen(double time, double end, double farthest) {
+  const double before = std::max(0.0, time);
+  const double behind = std::max(0.0, end - time);
+  return before < std::min(behind, farthest) ? time - before : time + std::min(behind, farthest);
+}
 
 }  // namespace
 
@@ -67,6 +76,9 @@ Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double
       }
     }
     before = behind;
+  }
+  if (nearest.node < 0) {
+    nearest.time = unseen(time, node_times_[static_cast<std::size_t>(nodes_ - 1)], farthest);
   }
   return nearest;
 }
