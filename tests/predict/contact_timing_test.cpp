@@ -55,6 +55,26 @@ TEST_F(HopperStance, ATouchdownAfterAFreeFallComesWhenItMust) {
   EXPECT_NEAR(found.Jx(last, 0) * timing_floor(fall), 1.0 / (g * t), 1e-3 / (g * t));
 }
 
+// Predicted a millisecond behind the window's end, an instant is at least as far off as the end is: it is not
+// one that does not come at all, which costs 10 ms. The same before its beginning.
+TEST_F(HopperStance, AnInstantJustOutsideOfTheWindowCountsAsFarOffAsItsEnd) {
+  model::Model loose = model_;
+  loose.effects.erase(loose.effects.begin() + 1, loose.effects.begin() + 3);
+  Trial fall = trial_;
+  fall.contact_events = {{0.085, 85, 0, true}, {0.001, 1, 0, true}};
+  fall.commands[0].values.setZero();
+  Predictor predictor(loose, fall, {});
+  Eigen::VectorXd x0 = Eigen::VectorXd::Zero(predictor.plant().states());
+  const auto early = [&](const Window& window) {
+    return predictor.residual(window, x0)[predictor.rows(window) - 1] * timing_floor(fall);
+  };
+  x0[0] = 0.44;  // lands after sqrt(2 * 0.04 / g) = 0.0903 s
+  EXPECT_NEAR(early({0, 0, 88, {0}}), 0.085 - 0.087, 1e-9);
+  EXPECT_NEAR(early({0, 0, 70, {0}}), 0.0, 1e-9);  // the window ends before it
+  x0[0] = 0.399;                                   // in the ground from the beginning
+  EXPECT_NEAR(early({0, 0, 20, {1}}), 0.001, 1e-9);
+}
+
 // The oracle is differences of whole predictions: the variational equations know nothing of them.
 TEST_F(HopperStance, SensitivitiesThroughStanceAgreeWithDifferences) {
   const model::Model model = with_ground_errors(model_);
