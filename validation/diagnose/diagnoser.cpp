@@ -163,7 +163,7 @@ bool Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   }
   const Stage fitted = fit_own(open);
   const bool helps =
-      judged(fitted.estimate, data_) < (1.0 - options_.material) * judged(stage.estimate, data_);
+      judged(fitted.estimate, data_) < (1.0 - options_.simpler) * judged(stage.estimate, data_);
   if (helps) {
     take("own parameters fitted", fitted, diagnosis);
   }
