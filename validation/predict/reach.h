@@ -35,9 +35,9 @@ Followed follow_beginnings(const model::Model& model, const Data& data);
 Followed follow_at(const model::Model& model, const Data& data, double length);
 
 /// The same of `data` from where `shorter` segments of it begin: these, searched anew with the present model,
-/// or segments of twice the length if the model can be followed so far, or `in_any_case`. A segment that is
-/// lost (above the floor, with more than twice the mean square of its halves) stays in its halves; where more
-/// than a quarter are, the model is.
+/// or segments of twice the length if the model can be followed so far, or `in_any_case`. A segment that
+/// goes astray (is_astray, of the mean square of the worst of its halves) stays in its halves; where more
+/// than a quarter do, the model does.
 Followed follow_further(const model::Model& model, const Data& data, const Followed& shorter,
                         bool in_any_case);
 
