@@ -190,11 +190,9 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
     if (is_above_floor(data, w, reduced[i].raw_sse)) {
       try_from_before(w, before, settling, point, reduced[i]);
     }
-    if (start.size() == 0) {
+    if (start.size() == 0 && is_above_floor(data, w, reduced[i].raw_sse)) {
       start = measured_start(w, point);
-      if (is_above_floor(data, w, reduced[i].raw_sse)) {
-        try_start(w, start, settling, point, reduced[i]);
-      }
+      try_start(w, start, settling, point, reduced[i]);
     }
     if (is_astray(data, w, reduced[i], expected.empty() ? reduced[i].sse : expected[i])) {
       try_grown(w, start, settling, point, reduced[i]);
