@@ -1,6 +1,7 @@
 // Normal equations of windows with their initial states eliminated.
-#include <Eigen/QR>
+#include <utility>
 
+#include "validation/predict/eliminate.h"
 #include "validation/predict/estimate.h"
 
 namespace plumbline::validation {
@@ -24,37 +25,27 @@ Reduced reduce(Predictor& predictor, const Window& window, const Eigen::VectorXd
   const Predictor::Anchor anchor = predictor.anchor(window, x0, lin.r);
   const Eigen::Index nx = x0.size();
   const Eigen::Index rows = lin.r.size();
-  Eigen::MatrixXd X(rows + nx, nx);
+  Eigen::MatrixXd X(rows + nx, nx);  // of the window, then of what is known of its start
   X.topRows(rows) = lin.Jx;
   X.bottomRows(nx) = anchor.slope.asDiagonal();
-  Eigen::VectorXd r(rows + nx);  // of the window, then of what is known of its start
+  Eigen::VectorXd r(rows + nx);
   r << lin.r, anchor.r;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(X);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows + nx, nx);
-  const Eigen::VectorXd Qtr = Q.transpose() * r;
-  const auto R = qr.matrixQR().topRows(nx).triangularView<Eigen::Upper>();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + nx, lin.Jp.cols());
+  J.topRows(rows) = lin.Jp * slopes.asDiagonal();
+  Eliminated left = eliminate(X, J, r);
   out.curved = predictor.is_curved();
   out.expansion = predictor.expansion(window, lin.Jx);
   out.raw_sse = r.squaredNorm();
-  out.sse = out.raw_sse - Qtr.squaredNorm();
-  out.square = predictor.squares(window, lin.r - Q.topRows(rows) * Qtr);
-  out.x_shift = R.solve(Qtr);
-  out.x_H = R.transpose() * R.toDenseMatrix();  // X'X
-  out.H.setZero(lin.Jp.cols(), lin.Jp.cols());
-  out.g.setZero(lin.Jp.cols());
-  out.x_slope.setZero(nx, lin.Jp.cols());
-  if (moving.empty()) {
-    return out;  // Eigen's products are not made for matrices without columns
+  out.sse = left.sse;
+  out.square = predictor.squares(window, left.r.head(rows));
+  out.x_H = left.R.transpose() * left.R;
+  out.x_shift = std::move(left.step);
+  out.x_slope = std::move(left.slope);
+  out.H = std::move(left.H);
+  out.g = std::move(left.g);
+  if (!moving.empty()) {
+    out.channel_slopes = sums_by_channel(left.J.topRows(rows), window.count, predictor.channels());
   }
-  const Eigen::MatrixXd Jp = lin.Jp * slopes.asDiagonal();
-  const Eigen::MatrixXd QtJ = Q.topRows(rows).transpose() * Jp;
-  out.H.selfadjointView<Eigen::Lower>().rankUpdate(Jp.transpose()).rankUpdate(QtJ.transpose(), -1.0);
-  out.H.triangularView<Eigen::StrictlyUpper>() = out.H.transpose();
-  out.g = Jp.transpose() * lin.r - QtJ.transpose() * Qtr;
-  out.x_slope = R.solve(QtJ);
-  const int channels = predictor.channels();
-  out.channel_slopes = sums_by_channel(Jp, window.count, channels);
-  out.channel_slopes.noalias() -= QtJ.transpose() * sums_by_channel(Q, window.count, channels);
   return out;
 }
 
