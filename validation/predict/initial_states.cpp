@@ -9,9 +9,9 @@
 namespace plumbline::validation {
 namespace {
 
-/// Windows that follow each other in time without a gap, each in the order of time: a run begins where a
-/// window does not continue another one.
-std::vector<std::vector<int>> runs_of(const Data& data) {
+/// Windows that follow each other in time without a gap, each in the order of time. With `segments_alone` a
+/// run begins where a window does not continue another one.
+std::vector<std::vector<int>> runs_of(const Data& data, bool segments_alone) {
   std::vector<int> order = data.all_windows();
   const auto at = [&](int w) -> const Window& { return data.windows[static_cast<std::size_t>(w)]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -19,7 +19,8 @@ std::vector<std::vector<int>> runs_of(const Data& data) {
   });
   std::vector<std::vector<int>> runs;
   for (const int w : order) {
-    const bool follows = !runs.empty() && at(w).continues && at(runs.back().back()).trial == at(w).trial &&
+    const bool follows = !runs.empty() && (at(w).continues || !segments_alone) &&
+                         at(runs.back().back()).trial == at(w).trial &&
                          at(runs.back().back()).first + at(runs.back().back()).count == at(w).first;
     if (!follows) {
       runs.emplace_back();
@@ -164,8 +165,8 @@ Eigen::VectorXd InitialStates::measured_start(int window, const Point& point) {
   return start;
 }
 
-void InitialStates::in_turn(const std::function<void(int window, int before)>& work) {
-  const std::vector<std::vector<int>> runs = runs_of(pool_.data());
+void InitialStates::in_turn(bool segments_alone, const std::function<void(int window, int before)>& work) {
+  const std::vector<std::vector<int>> runs = runs_of(pool_.data(), segments_alone);
   parallel_for(static_cast<int>(runs.size()), pool_.data().threads, [&](int r) {
     int before = -1;
     for (const int w : runs[static_cast<std::size_t>(r)]) {
@@ -180,7 +181,7 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
   std::vector<Reduced> reduced(data.windows.size());
-  in_turn([&](int w, int before) {
+  in_turn(true, [&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
     reduced[i].raw_sse = reduced[i].sse = std::numeric_limits<double>::infinity();
     Eigen::VectorXd start = point.x0[i];
@@ -214,7 +215,7 @@ void InitialStates::settle_lost(const std::vector<double>& promised, const Settl
   if (kOneOf * std::count_if(all.begin(), all.end(), is_lost) > static_cast<std::ptrdiff_t>(all.size())) {
     return;
   }
-  in_turn([&](int w, int before) {
+  in_turn(false, [&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
     if (is_lost(w)) {
       try_start(w, from.x0[i], settling, point, reduced[i]);

@@ -74,8 +74,9 @@ class InitialStates {
   void try_from_before(int window, int before, const Settling& settling, Point& point, Reduced& reduced);
   void try_grown(int window, const Eigen::VectorXd& start, const Settling& settling, Point& point,
                  Reduced& reduced);
-  /// Work on each window after that on the one before (-1: none) is done.
-  void in_turn(const std::function<void(int window, int before)>& work);
+  /// Work on each window after that on the one before (-1: none) is done. With `segments_alone` that is one
+  /// of the same window, and more is done at once.
+  void in_turn(bool segments_alone, const std::function<void(int window, int before)>& work);
 
   PredictorPool& pool_;
   const std::vector<FreeParameter>& parameters_;

@@ -90,7 +90,7 @@ void grow(const PredictorPool& pool, const std::vector<FreeParameter>& parameter
 struct ByParts {
   Point at;
   Grown grown;
-  std::vector<int> open;  // windows that are above the floor
+  std::vector<Reduced> reduced;
 };
 
 ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
@@ -103,10 +103,9 @@ ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramete
     const std::vector<Reduced> reduced = settle_all(part, parameters, kRoughly, found.at);
     keep(data, std::vector<double>(count, share), found.at, reduced, data.all_windows(), found.grown);
   }
-  std::vector<Reduced> reduced = settle_all(pool, parameters, kRoughly, found.at);
-  InitialStates states(pool, parameters, {});
-  states.settle_anew(above_floor(pool.data(), reduced), kRoughly, found.at, reduced);
-  found.open = above_floor(pool.data(), reduced);
+  found.reduced = settle_all(pool, parameters, kRoughly, found.at);
+  InitialStates(pool, parameters, {})
+      .settle_anew(above_floor(pool.data(), found.reduced), kRoughly, found.at, found.reduced);
   return found;
 }
 
@@ -127,8 +126,12 @@ Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& par
 Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                    const Eigen::VectorXd& theta, Grown* how_far) {
   ByParts found = by_parts(pool, parameters, theta);
-  begin_anew(pool, parameters, found.open, found.at, found.grown);
-  grow(pool, parameters, found.open, found.grown, found.at);
+  const std::vector<double> at_floor(found.reduced.size(), 0.0);  // squares: whatever is above it is lost
+  InitialStates(pool, parameters, {})
+      .settle_lost(at_floor, kRoughly, true, Point(found.at), found.at, found.reduced);
+  const std::vector<int> open = above_floor(pool.data(), found.reduced);
+  begin_anew(pool, parameters, open, found.at, found.grown);
+  grow(pool, parameters, open, found.grown, found.at);
   if (how_far != nullptr) {
     *how_far = std::move(found.grown);
   }
