@@ -60,8 +60,9 @@ class BySegments {
   /// On these, with more own numbers open. Where they did not help on shorter ones something else is missing,
   /// and they are tried again on whole windows only, before it is looked for.
   void go_on(const Followed& followed, Diagnosis& diagnosis) {
-    numbers_help_ = Diagnoser(catalogue_, followed, options_, progress_)
-                        .further_on(numbers_help_ || is_whole(followed), diagnosis);
+    numbers_help_ =
+        Diagnoser(catalogue_, followed, options_, progress_)
+            .further_on(not_followed(data_, followed) == 0, numbers_help_ || is_whole(followed), diagnosis);
   }
 
   bool names_more(const Followed& followed) {

@@ -60,17 +60,17 @@ bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosi
   return promising;
 }
 
-bool Diagnoser::further_on(bool with_numbers, Diagnosis& diagnosis) {
+bool Diagnoser::further_on(bool complete, bool with_numbers, Diagnosis& diagnosis) {
   progress_(std::isinf(length_) ? "whole windows" : fmt::format("windows of {:.2g} s", length_), 0.0);
   const Stage& before = diagnosis.final_stage;
   take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
        diagnosis);
-  const bool helps = is_below(options_.at_floor, diagnosis.final_stage.estimate, data_) ||
-                     (with_numbers && open_own_numbers(diagnosis));
+  const bool at_floor = is_below(options_.at_floor, diagnosis.final_stage.estimate, data_);
+  const bool helped = !(at_floor && complete) && with_numbers && open_own_numbers(diagnosis);
   if (diagnosis.accepted.empty()) {
     diagnosis.bare_rungs = diagnosis.ladder.size();
   }
-  return helps;
+  return at_floor || helped;
 }
 
 void Diagnoser::look_further(Diagnosis& diagnosis) {

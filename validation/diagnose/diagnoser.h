@@ -21,9 +21,10 @@ class Diagnoser {
   /// On segments, with the numbers free at once: what they tell is weighed anew on longer ones. False where
   /// these promise little of what is above the floor: something large is missing, and they stay as stated.
   bool begin_on_segments(const model::Model& model, Diagnosis& diagnosis);
-  /// What was named on other segments, on these, above the floor with more own numbers open if
-  /// `with_numbers`. Did these help, or were they not needed?
-  bool further_on(bool with_numbers, Diagnosis& diagnosis);
+  /// What was named on other segments, on these, with more own numbers open if `with_numbers`: above the
+  /// floor, and where these are not `complete`. A model with wrong numbers loses windows before its error
+  /// shows in those that it keeps. Did the numbers help, or was there no need of them?
+  bool further_on(bool complete, bool with_numbers, Diagnosis& diagnosis);
   /// What else is missing here.
   void look_further(Diagnosis& diagnosis);
   /// The first round from the model that nothing was added to; empty where none was needed.
