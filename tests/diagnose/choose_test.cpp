@@ -42,5 +42,35 @@ TEST(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
   EXPECT_NE(after.named, 0);
 }
 
+/// The window's squares times one of the factors in turn.
+void set_squares(const std::vector<Eigen::VectorXd>& squares, const std::vector<double>& factors,
+                 const Data& data, Refit& refit) {
+  Prediction& predicted = refit.estimate.predicted;
+  for (std::size_t w = 0; w < squares.size(); ++w) {
+    predicted.square[w] = factors[w % factors.size()] * squares[w];
+  }
+  predicted.scores = score(data, predicted.square);
+}
+
+// Viscous friction takes fewer constants for granted than Coulomb's: it is named where it is nearly as good
+// by chance, not where it is a little worse in every window.
+TEST(Choose, FewerConstantsAreNoEvidence) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
+  const DiagnoseOptions options;
+  Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
+  ASSERT_GE(tried.refits.size(), 2U);
+  tried.refits.resize(2);
+  Refit& coulomb = tried.refits[0];
+  Refit& viscous = tried.refits[1];
+  ASSERT_EQ(tried.candidates[static_cast<std::size_t>(viscous.candidate)].label(), "viscous@mLA");
+  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
+  set_squares(squares, {1.03}, data, viscous);
+  EXPECT_EQ(choose(tried.stage, tried.refits, data, options).named, 0);
+  set_squares(squares, {0.53, 1.53}, data, viscous);
+  ASSERT_GT(viscous.square(), coulomb.square());
+  EXPECT_EQ(choose(tried.stage, tried.refits, data, options).named, 1);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

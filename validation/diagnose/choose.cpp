@@ -65,6 +65,32 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
 /// Relative difference of squared errors that the searches themselves may leave.
 constexpr double kSame = 2e-3;
 
+/// Better in nearly all of the resamples, and by more than the searches leave.
+bool is_surely_better(const Refit& other, const Refit& than, const Data& data,
+                      const DiagnoseOptions& options) {
+  return other.square() < (1.0 - kSame) * than.square() &&
+         share_better(other, than, data, options) > 1.0 - kFair;
+}
+
+/// The first of those that could be named, simplest first; of as many fitted parameters one that is surely
+/// better, for fewer constants are no evidence.
+int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refit>& refits,
+                  const std::vector<std::string>& objections, const Data& data,
+                  const DiagnoseOptions& options) {
+  int named = -1;
+  for (const std::size_t i : sorted) {
+    if (!objections[i].empty()) {
+      continue;
+    }
+    const bool is_first = named < 0;
+    const auto& best = refits[is_first ? i : static_cast<std::size_t>(named)];
+    if (is_first || (refits[i].own == best.own && is_surely_better(refits[i], best, data, options))) {
+      named = static_cast<int>(i);
+    }
+  }
+  return named;
+}
+
 /// What these data cannot tell from the named law: of no more parameters those that win in a fair share of
 /// resamples or leave the same error; of more parameters those that are surely better, if only by little.
 std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits,
@@ -75,10 +101,10 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
     if (i == named) {
       continue;
     }
-    const double wins = share_better(refits[i], refits[named], data, options);
-    const double ratio = refits[i].square() / refits[named].square();
     const bool smaller = refits[i].own <= refits[named].own;
-    if (smaller ? wins > kFair || ratio < 1.0 + kSame : wins > 1.0 - kFair && ratio < 1.0 - kSame) {
+    if (smaller ? share_better(refits[i], refits[named], data, options) > kFair ||
+                      refits[i].square() < (1.0 + kSame) * refits[named].square()
+                : is_surely_better(refits[i], refits[named], data, options)) {
       rivals.push_back(i);
     }
   }
@@ -119,11 +145,9 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
     return complexity(refits[a]) < complexity(refits[b]);
   });
-  const auto named =
-      std::find_if(near.begin(), near.end(), [&](std::size_t i) { return choice.objections[i].empty(); });
-  if (named != near.end()) {
-    choice.named = static_cast<int>(*named);
-    choice.rivals = rivals_of(*named, refits, contenders, data, options);
+  choice.named = first_to_name(near, refits, choice.objections, data, options);
+  if (choice.named >= 0) {
+    choice.rivals = rivals_of(static_cast<std::size_t>(choice.named), refits, contenders, data, options);
   }
   return choice;
 }

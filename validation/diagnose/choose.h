@@ -20,7 +20,8 @@ struct Choice {
 };
 
 /// Of the refits (best first) without a flaw that are about as good as the best, the one with the fewest
-/// parameters is named (a law that contains another is not preferred to it for an immaterial gain), if
+/// fitted parameters is named (a law that contains another is not preferred to it for an immaterial gain), of
+/// equally many the one with the fewest constants unless another is better in nearly all resamples, if
 /// nothing speaks against it.
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options);

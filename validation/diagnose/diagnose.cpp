@@ -10,6 +10,7 @@
 #include "validation/diagnose/finish.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/same_force.h"
+#include "validation/predict/initial_states.h"
 #include "validation/predict/kept_results.h"
 #include "validation/predict/reach.h"
 
@@ -59,7 +60,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
   set_values(diagnosis.final_stage, all, diagnosis.accepted);
   conclude(all, options, diagnosis);
   // What could not be followed has not been explained.
-  if (diagnosis.verdict == Verdict::nothing_missing && 4 * diagnosis.cut_windows > diagnosis.windows) {
+  if (diagnosis.verdict == Verdict::nothing_missing && diagnosis.cut_windows > most_lost(diagnosis.windows)) {
     diagnosis.verdict = Verdict::unexplained;
   }
 }

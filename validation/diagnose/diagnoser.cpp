@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "validation/diagnose/accept.h"
@@ -158,7 +157,8 @@ bool Diagnoser::speaks_for_stated(const Diagnosis& diagnosis) const {
 bool Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   const Stage& stage = diagnosis.final_stage;
   const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
-  if (open.parameters.size() == stage.parameters.size() || !promises_much(open)) {
+  // Twice: what is judged is the error, what is promised its square.
+  if (open.parameters.size() == stage.parameters.size() || !promises_much(open, 2.0 * options_.simpler)) {
     return false;
   }
   const Stage fitted = fit_own(open);
@@ -181,21 +181,16 @@ void Diagnoser::replace_last(const Stage& stage, Diagnosis& diagnosis) const {
   diagnosis.ladder.back().stage = stage;
 }
 
-bool Diagnoser::promises_much(const Stage& open) const {
+bool Diagnoser::promises_much(const Stage& open, double least) const {
   constexpr double kMuch = 0.25;
   const Eigen::VectorXd theta = values_of(open.model, open.parameters);
   const Eigen::VectorXd units = search_units(open.parameters, theta);
   const std::vector<int> windows = data_.all_windows();
   PredictorPool pool(open.model, data_);
   const std::vector<Reduced> reduced = reduce(pool, windows, open.parameters, theta, open.estimate.x0, units);
-  const Sum train = sum_of(reduced, windows, data_, Role::train);
-  std::vector<Eigen::Index> all(open.parameters.size());
-  std::iota(all.begin(), all.end(), Eigen::Index{0});
-  const Promise promise =
-      promise_of(train, sum_of(reduced, windows, data_, Role::held_out), all,
-                 prior(open.parameters, units, theta), room(open.parameters, theta, units));
-  const double before = train.sse / train.samples;
-  return before - promise.train > kMuch * (before - 1.0);
+  const LinearProblem problem = linear_problem(data_, windows, reduced, open.parameters, theta, units);
+  const double before = problem.train.sse / problem.train.samples;
+  return before - promise_of(problem).train > std::max(kMuch * (before - 1.0), least * before);
 }
 
 Stage Diagnoser::fit_own(const Stage& open) const {

@@ -57,9 +57,9 @@ class Diagnoser {
   void take(const std::string& name, const Stage& stage, Diagnosis& diagnosis) const;
   void replace_last(const Stage& stage, Diagnosis& diagnosis) const;
   Stage fit_own(const Stage& open) const;
-  /// Do the open numbers promise a good part of what is above the floor? A model that lacks something large
-  /// is not searched for numbers that make up for it.
-  bool promises_much(const Stage& open) const;
+  /// Do the open numbers promise a good part of what is above the floor, and this share of all? A model that
+  /// lacks something large is not searched for numbers that make up for it.
+  bool promises_much(const Stage& open, double least = 0.0) const;
   /// A law that is already named at a place is not named there again: two of a kind can add up to a third.
   static std::vector<std::string> names_of(const std::vector<Finding>& findings);
   bool step(Diagnosis& diagnosis, int round);

@@ -1,6 +1,7 @@
 #include "validation/diagnose/promise.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace plumbline::validation {
 namespace {
@@ -28,12 +29,28 @@ double mean_square(double square, const Sum& sum) {
 
 }  // namespace
 
-Promise promise_of(const Sum& train, const Sum& held_out, const std::vector<Eigen::Index>& chosen,
-                   const Prior& known, const Room& bounds) {
-  const Prior some{known.square, chosen_of(known.g, chosen), chosen_of(known.H, chosen)};
-  const Foretold foretold = foretell(chosen_of(train, chosen), chosen_of(held_out, chosen), some,
+LinearProblem linear_problem(const Data& data, const std::vector<int>& windows,
+                             const std::vector<Reduced>& reduced,
+                             const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
+                             const Eigen::VectorXd& units) {
+  return {sum_of(reduced, windows, data, Role::train), sum_of(reduced, windows, data, Role::held_out),
+          prior(parameters, units, theta), room(parameters, theta, units)};
+}
+
+Promise promise_of(const LinearProblem& problem, const std::vector<Eigen::Index>& chosen) {
+  const Prior& known = problem.known;
+  const Room& bounds = problem.bounds;
+  const Foretold foretold = foretell(chosen_of(problem.train, chosen), chosen_of(problem.held_out, chosen),
+                                     {known.square, chosen_of(known.g, chosen), chosen_of(known.H, chosen)},
                                      {chosen_of(bounds.lower, chosen), chosen_of(bounds.upper, chosen)});
-  return {foretold.train_step, mean_square(foretold.train, train), mean_square(foretold.held_out, held_out)};
+  return {foretold.train_step, mean_square(foretold.train, problem.train),
+          mean_square(foretold.held_out, problem.held_out)};
+}
+
+Promise promise_of(const LinearProblem& problem) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(problem.train.g.size()));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  return promise_of(problem, all);
 }
 
 }  // namespace plumbline::validation

@@ -61,20 +61,14 @@ Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
   PredictorPool pool(extended.model, data);
   const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
   const std::vector<Reduced> reduced = reduce(pool, windows, extended.parameters, extended.theta, x0, units);
-  const Sum train = sum_of(reduced, windows, data, Role::train);
-  const Sum held_out = sum_of(reduced, windows, data, Role::held_out);
-  std::vector<Eigen::Index> chosen(extended.parameters.size());
-  for (std::size_t p = 0; p < chosen.size(); ++p) {
-    chosen[p] = static_cast<Eigen::Index>(p);
-  }
-  Room bounds = room(extended.parameters, extended.theta, units);
+  LinearProblem problem = linear_problem(data, windows, reduced, extended.parameters, extended.theta, units);
+  Room& bounds = problem.bounds;
   // A linearisation far from null is trusted for about a factor of two.
   for (Eigen::Index p = units.size() - static_cast<Eigen::Index>(own); p < units.size(); ++p) {
     bounds.lower[p] = std::max(bounds.lower[p], -1.0);
     bounds.upper[p] = std::min(bounds.upper[p], 1.0);
   }
-  const Prior known = prior(extended.parameters, units, extended.theta);
-  return promise_of(train, held_out, chosen, known, bounds);
+  return promise_of(problem);
 }
 
 /// An infinite one where the model cannot be integrated on these trials: it is no explanation of them.

@@ -123,15 +123,11 @@ Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,
   Eigen::VectorXd theta = values_of(model, parameters);
   theta.head(stage.estimate.theta.size()) = stage.estimate.theta;
   const Eigen::VectorXd units = search_units(parameters, theta);
-  const std::vector<int> windows = data.all_windows();
   PredictorPool pool(model, data);
   reduced_ = linearise(pool, parameters, theta, stage.estimate, units);
-  train_ = sum_of(reduced_, windows, data, Role::train);
-  held_out_ = sum_of(reduced_, windows, data, Role::held_out);
-  bounds_ = room(parameters, theta, units);
-  known_ = prior(parameters, units, theta);
+  problem_ = linear_problem(data, data.all_windows(), reduced_, parameters, theta, units);
   for (const std::vector<Eigen::Index>& own : own_) {
-    moving_.push_back(noticeable(train_, own));
+    moving_.push_back(noticeable(problem_.train, own));
   }
 }
 
@@ -143,7 +139,7 @@ Tangents::Solution Tangents::solve(const std::vector<std::size_t>& some) const {
   for (const std::size_t h : some) {
     solution.chosen.insert(solution.chosen.end(), moving_[h].begin(), moving_[h].end());
   }
-  solution.promise = promise_of(train_, held_out_, solution.chosen, known_, bounds_);
+  solution.promise = promise_of(problem_, solution.chosen);
   return solution;
 }
 
@@ -196,8 +192,8 @@ std::vector<Hypothesis> Tangents::promises() const {
 // Without bounds, which is quick: enough to leave out what has no prospect.
 std::vector<std::pair<std::size_t, std::size_t>> Tangents::shortlist(std::size_t most) const {
   const auto count = static_cast<Eigen::Index>(stage_.parameters.size());
-  const Sum all{train_.H + held_out_.H, train_.g + held_out_.g};
-  const Remaining left = without_stage(all, known_, count);
+  const Sum all{problem_.train.H + problem_.held_out.H, problem_.train.g + problem_.held_out.g};
+  const Remaining left = without_stage(all, problem_.known, count);
   std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> rated;
   for (std::size_t a = 0; a < hypotheses_.size(); ++a) {
     for (std::size_t b = a + 1; b < hypotheses_.size(); ++b) {

@@ -46,9 +46,7 @@ class Tangents {
   std::vector<std::vector<Eigen::Index>> own_;     // columns of each hypothesis
   std::vector<std::vector<Eigen::Index>> moving_;  // those of them that matter
   std::vector<Reduced> reduced_;                   // by window
-  Sum train_, held_out_;
-  Room bounds_;
-  Prior known_;
+  LinearProblem problem_;
 };
 
 /// A law that can be linearised at its null value: it brings no state and no coordinate.

@@ -1,6 +1,7 @@
 #include "validation/predict/initial_states.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -177,26 +178,37 @@ void InitialStates::in_turn(bool segments_alone, const std::function<void(int wi
 }
 
 std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Point& point,
-                                                   const std::vector<double>& expected) {
+                                                   const std::vector<double>& expected, std::size_t most) {
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
   std::vector<Reduced> reduced(data.windows.size());
+  const auto is_lost = [&](std::size_t i) {
+    return is_astray(data, static_cast<int>(i), reduced[i], expected.empty() ? reduced[i].sse : expected[i]);
+  };
+  std::atomic<std::size_t> lost{0};
   in_turn(true, [&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
     reduced[i].raw_sse = reduced[i].sse = std::numeric_limits<double>::infinity();
+    if (lost > most) {
+      return;
+    }
     Eigen::VectorXd start = point.x0[i];
-    if (start.size() > 0) {
+    const bool is_given = start.size() > 0;
+    if (is_given) {
       try_start(w, start, settling, point, reduced[i]);
     }
-    if (is_above_floor(data, w, reduced[i].raw_sse)) {
+    if (!is_given || is_lost(i)) {
       try_from_before(w, before, settling, point, reduced[i]);
     }
-    if (start.size() == 0 && is_above_floor(data, w, reduced[i].raw_sse)) {
+    if (!is_given && is_above_floor(data, w, reduced[i].raw_sse)) {
       start = measured_start(w, point);
       try_start(w, start, settling, point, reduced[i]);
     }
-    if (is_astray(data, w, reduced[i], expected.empty() ? reduced[i].sse : expected[i])) {
+    if (is_lost(i)) {
       try_grown(w, start, settling, point, reduced[i]);
+    }
+    if (is_lost(i)) {
+      ++lost;
     }
   });
   return reduced;
@@ -205,14 +217,13 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
 void InitialStates::settle_lost(const std::vector<double>& promised, const Settling& settling,
                                 bool thoroughly, const Point& from, Point& point,
                                 std::vector<Reduced>& reduced) {
-  constexpr std::ptrdiff_t kOneOf = 4;  // where more are lost it is not their states that are wrong
   const Data& data = pool_.data();
   const auto is_lost = [&](int w) {
     const auto i = static_cast<std::size_t>(w);
     return is_astray(data, w, reduced[i], promised[i]);
   };
   const std::vector<int> all = data.all_windows();
-  if (kOneOf * std::count_if(all.begin(), all.end(), is_lost) > static_cast<std::ptrdiff_t>(all.size())) {
+  if (static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_lost)) > most_lost(all.size())) {
     return;
   }
   in_turn(false, [&](int w, int before) {
@@ -321,6 +332,8 @@ bool is_astray(const Data& data, int window, const Reduced& reduced, double expe
   return is_above_floor(data, window, reduced.raw_sse) &&
          !(reduced.raw_sse <= kKept * expected && reduced.raw_sse <= kPromised * reduced.sse);
 }
+
+std::size_t most_lost(std::size_t windows) { return windows / 4; }
 
 bool is_above_floor(const Data& data, int window, double sse, double fits) {
   return sse > fits * fits * readings(data, window);

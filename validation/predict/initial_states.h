@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,17 +37,19 @@ class InitialStates {
   /// Steps of the initial states alone (StateSearch::settle).
   void settle(const std::vector<int>& windows, const Settling& settling, Point& point,
               std::vector<Reduced>& reduced);
-  /// All windows in the order of time: from the states they have; above the floor also from where the one
-  /// before ends, and without a state from the measurements; where that leads astray, grown
-  /// (StateSearch::grown). In the midst of a contact the measurements hardly tell how deep a foot is in the
-  /// ground, how far its bristles are bent and how hard a pulley is in its stop, but a model that explains
-  /// what came before does. Squared residuals of each window are `expected`; none: what its equations
-  /// promise. The equations where they end; an infinite cost where none is found.
+  /// All windows in the order of time: from the states they have; those without one from where the one before
+  /// ends, and above the floor from the measurements; those that are astray from where the one before ends,
+  /// then grown (StateSearch::grown). In the midst of a contact the measurements hardly tell how deep a foot
+  /// is in the ground, how far its bristles are bent and how hard a pulley is in its stop, but a model that
+  /// explains what came before does. Squared residuals of each window are `expected`; none: what its
+  /// equations promise. The equations where they end; an infinite cost where none is found. Where more than
+  /// `most` go astray the rest is left, with infinite costs.
   std::vector<Reduced> settle_in_turn(const Settling& settling, Point& point,
-                                      const std::vector<double>& expected = {});
+                                      const std::vector<double>& expected = {},
+                                      std::size_t most = std::numeric_limits<std::size_t>::max());
   /// Windows that have gone astray of the promised squared residuals: once more from where they began, then
   /// from where the one before ends, then from the measurements, and `thoroughly` grown from there. Nothing
-  /// is tried where more than a quarter of all are.
+  /// is tried where more than most_lost() are.
   void settle_lost(const std::vector<double>& promised, const Settling& settling, bool thoroughly,
                    const Point& from, Point& point, std::vector<Reduced>& reduced);
   /// All windows from where they are, or from the measurements; the equations where they end.
@@ -93,6 +96,9 @@ bool is_above_floor(const Data& data, int window, double sse, double fits = kFit
 /// Above the floor: has a window more than twice the squared residuals that are expected of it, or does the
 /// next step promise to take a third? Such a search is not at its end, whatever it says.
 bool is_astray(const Data& data, int window, const Reduced& reduced, double expected);
+
+/// A quarter of so many windows: where more are lost it is not their states that are wrong, but the model.
+std::size_t most_lost(std::size_t windows);
 
 /// The windows that are above the floor where they are.
 std::vector<int> above_floor(const Data& data, const std::vector<Reduced>& reduced, double fits = kFits);

@@ -1,6 +1,7 @@
 #include "validation/predict/reach.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,12 +24,12 @@ struct SettledWindows {
 };
 
 Record settle_in_turn(const model::Model& model, const Data& data, std::vector<Eigen::VectorXd> x0,
-                      const std::vector<double>& expected) {
+                      const std::vector<double>& expected, std::size_t most) {
   const std::vector<FreeParameter> as_it_is;
   PredictorPool pool(model, data);
   Point at{{}, std::move(x0)};
   const std::vector<Reduced> reduced =
-      InitialStates(pool, as_it_is, {}).settle_in_turn(kRoughly, at, expected);
+      InitialStates(pool, as_it_is, {}).settle_in_turn(kRoughly, at, expected, most);
   Eigen::VectorXd raw(static_cast<Eigen::Index>(reduced.size()));
   Eigen::VectorXd astray = raw;
   for (const int w : data.all_windows()) {
@@ -39,16 +40,18 @@ Record settle_in_turn(const model::Model& model, const Data& data, std::vector<E
   return Record().add(at.x0).add(raw).add(astray);
 }
 
-/// All windows of `data` in turn, those with a state from there.
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+
+/// All windows of `data` in turn, those with a state from there; no more than show that too many are lost.
 SettledWindows settled_in_turn(const model::Model& model, const Data& data,
                                const std::vector<Eigen::VectorXd>& x0,
-                               const std::vector<double>& expected = {}) {
+                               const std::vector<double>& expected = {}, std::size_t most = kAnyNumber) {
   ResultKey key = key_of("settle_in_turn", model, data);
-  key.numbers.add(x0).add(static_cast<double>(expected.size()));
+  key.numbers.add(x0).add(static_cast<double>(most)).add(static_cast<double>(expected.size()));
   for (const double one : expected) {
     key.numbers.add(one);
   }
-  const Record record = kept(data, key, [&] { return settle_in_turn(model, data, x0, expected); });
+  const Record record = kept(data, key, [&] { return settle_in_turn(model, data, x0, expected, most); });
   RecordReader reader(record);
   SettledWindows settled;
   settled.x0 = reader.vectors();
@@ -113,11 +116,6 @@ Followed follow_in_segments(const model::Model& model, const Data& data, double 
   return trimmed(some).followed;
 }
 
-bool are_too_many(std::size_t lost, std::size_t all) {
-  constexpr std::size_t kOneOf = 4;
-  return kOneOf * lost > all;
-}
-
 /// The shorter segments that lie in a longer one.
 std::vector<std::size_t> inside(const Window& longer, const Data& shorter) {
   std::vector<std::size_t> some;
@@ -167,8 +165,9 @@ std::optional<Level> lengthened(const model::Model& model, const Data& data, con
   for (const Window& window : longer.windows) {
     parts.push_back(inside(window, shorter.data));
   }
-  const SettledWindows settled =
-      settled_in_turn(model, longer, starts_of(longer, parts, shorter), expected_of(longer, parts, level));
+  const std::size_t most = in_any_case ? kAnyNumber : most_lost(longer.windows.size());
+  const SettledWindows settled = settled_in_turn(model, longer, starts_of(longer, parts, shorter),
+                                                 expected_of(longer, parts, level), most);
   Level some = empty_level(data, length);
   std::size_t lost = 0;
   for (const int w : longer.all_windows()) {
@@ -182,7 +181,7 @@ std::optional<Level> lengthened(const model::Model& model, const Data& data, con
       add(shorter.data.windows[s], shorter.x0[s], level.square[s], some);
     }
   }
-  if (!in_any_case && are_too_many(lost, longer.windows.size())) {
+  if (lost > most) {
     return std::nullopt;
   }
   return trimmed(some);
@@ -222,7 +221,7 @@ Followed follow(const model::Model& model, const Data& data) {
   const double window = data.predict.window;
   const Data few = data.thinned(kFew);
   const Followed tried = follow_in_segments(model, few, kFirstSegments * window);
-  const bool too_long = are_too_many(not_followed(few, tried), few.segments(tried.length).windows.size());
+  const bool too_long = not_followed(few, tried) > most_lost(few.segments(tried.length).windows.size());
   return follow_in_segments(model, data, (too_long ? kShortestSegments : kFirstSegments) * window);
 }
 
