@@ -7,6 +7,7 @@
 #include "contact/ground_change.h"
 #include "simulator/effects/parameters.h"
 #include "simulator/model/planar_base.h"
+#include "validation/diagnose/rates.h"
 
 namespace plumbline::validation {
 namespace {
@@ -220,6 +221,23 @@ bool is_moving_mass(const model::Skeleton& skeleton, const std::string& name) {
   return false;
 }
 
+/// Of a law in space, which the mechanism may not feel in every direction.
+std::vector<int> parameters_without_effect(const model::Model& model, const Candidate& candidate) {
+  constexpr double kRounding = 1e-12;
+  model::Model with = model;
+  with.effects.push_back(make_use(candidate, candidate.law->typical(candidate.scales)));
+  const Eigen::VectorXd rates = rates_at_random_states(with);
+  std::vector<int> found;
+  for (std::size_t p = 0; p < with.effects.back().values.size(); ++p) {
+    model::Model other = with;
+    other.effects.back().values[p].value *= 2.0;
+    if ((rates_at_random_states(other) - rates).norm() <= kRounding * rates.norm()) {
+      found.push_back(static_cast<int>(p));
+    }
+  }
+  return found;
+}
+
 bool is_null(const model::EffectUse& use) { return use.law->is_null(use.numbers().data()); }
 
 /// A law that brings states of its own to the system, by its bristles or by releasing a ratio, and that a
@@ -268,7 +286,7 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       if (place == Place::foot && !changes_ground(model, *law, at)) {
         continue;
       }
-      Candidate candidate{law, place, at, same, {}};
+      Candidate candidate{law, place, at, same, {}, {}};
       if (place == Place::coordinate || place == Place::motor || place == Place::ratio) {
         candidate.scales = motions.at(place, at);
       } else if (place == Place::sensor) {
@@ -277,6 +295,7 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       } else if (place == Place::body) {
         candidate.scales.inertia = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(at))].mass;
         candidate.scales.position = 0.1;
+        candidate.without_effect = parameters_without_effect(model, candidate);
       } else if (place == Place::foot) {
         candidate.scales.position = resting_depth(model, at);
       } else if (place == Place::base) {
@@ -326,6 +345,11 @@ std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, co
   constexpr double kReach = 4.0;  // half ranges of the motion
   const effects::Scales& scales = candidate.scales;
   std::vector<FreeParameter> free = free_parameters_of(use, effect, scales, angular);
+  const std::vector<int>& none = candidate.without_effect;
+  const auto has_none = [&](const FreeParameter& one) {
+    return std::find(none.begin(), none.end(), one.id.parameter) != none.end();
+  };
+  free.erase(std::remove_if(free.begin(), free.end(), has_none), free.end());
   for (FreeParameter& one : free) {
     if (effects::is_rest(use.law->declaration().parameters[static_cast<std::size_t>(one.id.parameter)])) {
       one.lower = std::max(one.lower, scales.center - kReach * scales.position);

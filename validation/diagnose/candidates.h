@@ -15,6 +15,8 @@ struct Candidate {
   std::string at;
   std::vector<std::string> same_places;  ///< rigidly tied to `at`: the law there is the same law
   effects::Scales scales;                ///< typical magnitudes at the place
+  /// Parameters without any effect on this model, as a shift of mass across the plane in which it moves.
+  std::vector<int> without_effect;
   std::string label() const { return law->declaration().name + "@" + at; }
 };
 
@@ -32,8 +34,9 @@ model::EffectUse make_use(const Candidate& candidate, const effects::Values& val
 std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
                                               const effects::Scales& scales, bool angular);
 
-/// The same for a use of a candidate that is searched: its rest lies near the motion. Seen from far away
-/// every law of a distance is a constant, and would be another law under this name.
+/// The same for a use of a candidate that is searched: without what has no effect, and its rest lies near the
+/// motion. Seen from far away every law of a distance is a constant, and would be another law under this
+/// name.
 std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, const model::EffectUse& use,
                                                   int effect, bool angular);
 

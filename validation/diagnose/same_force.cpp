@@ -3,34 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 
-#include "simulator/model/plant.h"
 #include "validation/diagnose/candidates.h"
+#include "validation/diagnose/rates.h"
 
 namespace plumbline::validation {
 namespace {
-
-constexpr int kMotions = 40;
-
-/// Rates at states whose velocities reach over six decades, so that what happens close to rest counts, too.
-Eigen::VectorXd rates(const model::Model& model) {
-  model::Plant plant(model, {});
-  const int states = plant.states();
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Eigen::VectorXd all(states * kMotions);
-  for (int i = 0; i < kMotions; ++i) {
-    const double speed = std::pow(10.0, 3.0 * uniform(random) - 2.0);
-    Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(states, [&] { return uniform(random); });
-    x.head(plant.positions()) *= 0.3;
-    x.segment(plant.positions(), plant.positions()) *= speed;
-    const Eigen::VectorXd command =
-        Eigen::VectorXd::NullaryExpr(plant.motors(), [&] { return uniform(random); });
-    plant.rate(x.data(), command.data(), &all[i * states]);
-  }
-  return all;
-}
 
 bool has_one_value(const effects::Law& law) {
   const std::vector<effects::Parameter>& parameters = law.declaration().parameters;
@@ -47,8 +25,8 @@ std::optional<Eigen::VectorXd> change(const model::Model& model, const Eigen::Ve
     return std::nullopt;
   }
   model::Model with = model;
-  with.effects.push_back(make_use({law, {}, name.at, {}, {}}, law->typical({})));
-  Eigen::VectorXd moved = rates(with);
+  with.effects.push_back(make_use({law, {}, name.at, {}, {}, {}}, law->typical({})));
+  Eigen::VectorXd moved = rates_at_random_states(with);
   if (moved.size() != without.size()) {
     return std::nullopt;
   }
@@ -72,7 +50,7 @@ void mark_same_forces(const model::Model& model, const effects::Catalogue& catal
       continue;
     }
     if (without.size() == 0) {
-      without = rates(model);
+      without = rates_at_random_states(model);
     }
     const std::optional<Eigen::VectorXd> own = change(model, without, catalogue, finding);
     for (Rival& rival : finding.rivals) {
