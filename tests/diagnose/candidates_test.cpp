@@ -1,0 +1,39 @@
+// What is searched of a candidate.
+#include "validation/diagnose/candidates.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/bench.h"
+
+namespace plumbline::validation {
+namespace {
+
+std::vector<std::string> searched(const std::string& law, const std::string& place) {
+  const Data data = bench_twins({}).thinned(1);
+  const Stage stage = as_given(bench(), data);
+  PredictorPool pool(stage.model, data);
+  std::vector<std::string> labels;
+  for (const Candidate& candidate : list_candidates(pool, some_laws({law}), {}, stage.estimate)) {
+    if (candidate.at == place) {
+      const model::EffectUse use = make_use(candidate, candidate.law->typical(candidate.scales));
+      for (const FreeParameter& one : searched_parameters_of(candidate, use, 0, true)) {
+        labels.push_back(one.label);
+      }
+    }
+  }
+  return labels;
+}
+
+// The leg moves in the plane of x and z.
+TEST(Candidates, AreNotSearchedAcrossThePlaneOfTheRobot) {
+  EXPECT_THAT(searched("com_shift", "shin"), testing::ElementsAre("com_shift@shin:x", "com_shift@shin:z"));
+}
+
+// Of a spring without stiffness the rest does nothing, of one with stiffness it does.
+TEST(Candidates, AreSearchedInAllThatMatters) {
+  EXPECT_THAT(searched("spring", "shin"), testing::ElementsAre("spring@shin:stiffness", "spring@shin:rest"));
+}
+
+}  // namespace
+}  // namespace plumbline::validation
