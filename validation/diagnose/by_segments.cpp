@@ -5,6 +5,7 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/diagnoser.h"
 #include "validation/diagnose/finish.h"
+#include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
 namespace {
@@ -15,6 +16,10 @@ Followed followed_further(const Data& data, const Followed& segments, bool in_an
                           const Progress& progress, const Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   return follow_further(fitted_model(diagnosis.final_stage), data, segments, in_any_case);
+}
+
+bool are_too_many_lost(const Data& data, const Followed& followed) {
+  return not_followed(data, followed) > most_lost(data.segments(followed.length).windows.size());
 }
 
 class BySegments {
@@ -65,9 +70,11 @@ class BySegments {
             .further_on(not_followed(data_, followed) == 0, numbers_help_ || is_whole(followed), diagnosis);
   }
 
+  /// Where too many whole windows are lost something is missing, whatever the error of the others.
   bool names_more(const Followed& followed) {
     const std::size_t named = diagnosis_.accepted.size();
-    Diagnoser(catalogue_, followed, options_, progress_).look_further(diagnosis_);
+    Diagnoser(catalogue_, followed, options_, progress_)
+        .look_further(is_whole(followed) && are_too_many_lost(data_, followed), diagnosis_);
     const bool more = diagnosis_.accepted.size() > named;
     if (more) {
       numbers_help_ = true;

@@ -72,8 +72,8 @@ bool Diagnoser::further_on(bool complete, bool with_numbers, Diagnosis& diagnosi
   return at_floor || helped;
 }
 
-void Diagnoser::look_further(Diagnosis& diagnosis) {
-  look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
+void Diagnoser::look_further(bool in_any_case, Diagnosis& diagnosis) {
+  look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis, in_any_case);
 }
 
 void Diagnoser::start(const model::Model& model, Diagnosis& diagnosis) {
@@ -94,9 +94,11 @@ Stage Diagnoser::opened(const Stage& given) const {
 
 double Diagnoser::enough() const { return std::isinf(length_) ? options_.at_floor : options_.finished; }
 
-void Diagnoser::look(int most, Diagnosis& diagnosis) {
+void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
   for (int round = 0; round < most; ++round) {
-    if (is_below(enough(), diagnosis.final_stage.estimate, data_) || !step(diagnosis, round)) {
+    const bool is_needed =
+        (in_any_case && round == 0) || !is_below(enough(), diagnosis.final_stage.estimate, data_);
+    if (!is_needed || !step(diagnosis, round)) {
       break;
     }
   }

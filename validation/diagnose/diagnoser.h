@@ -25,8 +25,8 @@ class Diagnoser {
   /// floor, and where these are not `complete`. A model with wrong numbers loses windows before its error
   /// shows in those that it keeps. Did the numbers help, or was there no need of them?
   bool further_on(bool complete, bool with_numbers, Diagnosis& diagnosis);
-  /// What else is missing here.
-  void look_further(Diagnosis& diagnosis);
+  /// What else is missing here: above the floor, or in any case.
+  void look_further(bool in_any_case, Diagnosis& diagnosis);
   /// The first round from the model that nothing was added to; empty where none was needed.
   const Tried& first() const { return first_; }
 
@@ -37,8 +37,8 @@ class Diagnoser {
   /// The error at which there is nothing to look for. On segments of the windows one that would be an answer:
   /// what little is left shows better further on.
   double enough() const;
-  /// One effect after the other from where the ladder stands.
-  void look(int most, Diagnosis& diagnosis);
+  /// One effect after the other from where the ladder stands, the first in any case if so.
+  void look(int most, Diagnosis& diagnosis, bool in_any_case = false);
   /// As a whole: an interruption must not leave parameters without their values.
   static void restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis);
   /// With the numbers as stated first, because an answer with them says more. But where other numbers alone
