@@ -12,30 +12,35 @@ namespace {
 
 void silent(const std::string& /*what*/, double /*fraction*/) {}
 
+/// Coulomb friction is hidden, and it and viscous friction are tried.
+class Choose : public testing::Test {
+ protected:
+  const Data data_ = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
+  const DiagnoseOptions options_{};
+  Tried tried_ = try_candidates(as_given(bench(), data_), some_laws({"coulomb", "viscous"}), {}, data_,
+                                options_, silent);
+};
+
 // The hidden law itself is made impossible: the next best must not lose the resamples that it would have won.
-TEST(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
-  const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
-  const DiagnoseOptions options;
-  Tried tried =
-      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
-  ASSERT_GE(tried.refits.size(), 2U);
+TEST_F(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
+  ASSERT_GE(tried_.refits.size(), 2U);
   const auto label = [&](std::size_t refit) {
-    return tried.candidates[static_cast<std::size_t>(tried.refits[refit].candidate)].label();
+    return tried_.candidates[static_cast<std::size_t>(tried_.refits[refit].candidate)].label();
   };
-  const Choice before = choose(tried.stage, tried.refits, data, options);
+  const Choice before = choose(tried_.stage, tried_.refits, data_, options_);
   ASSERT_EQ(before.named, 0);
   EXPECT_EQ(label(0), "coulomb@mLA");
   EXPECT_GT(before.shares[0], 0.9);
 
-  Refit& best = tried.refits.front();
+  Refit& best = tried_.refits.front();
   ASSERT_EQ(best.own, 1);
   const Eigen::Index level = best.estimate.theta.size() - 1;
   // Nothing at the best value for train is no flaw where train leaves it open and the held-out motion
   // decides.
   best.estimate.theta[level] = 0.0;
-  EXPECT_EQ(flaw(best, data), "");
+  EXPECT_EQ(flaw(best, data_), "");
   best.extended.parameters.back().upper = best.estimate.predicted.theta[level];
-  const Choice after = choose(tried.stage, tried.refits, data, options);
+  const Choice after = choose(tried_.stage, tried_.refits, data_, options_);
   EXPECT_THAT(after.objections[0], testing::HasSubstr("unphysical"));
   EXPECT_EQ(after.shares[0], 0.0);
   EXPECT_GT(after.shares[1], 0.9);
@@ -54,22 +59,18 @@ void set_squares(const std::vector<Eigen::VectorXd>& squares, const std::vector<
 
 // Viscous friction takes fewer constants for granted than Coulomb's: it is named where it is nearly as good
 // by chance, not where it is a little worse in every window.
-TEST(Choose, FewerConstantsAreNoEvidence) {
-  const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
-  const DiagnoseOptions options;
-  Tried tried =
-      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
-  ASSERT_GE(tried.refits.size(), 2U);
-  tried.refits.resize(2);
-  Refit& coulomb = tried.refits[0];
-  Refit& viscous = tried.refits[1];
-  ASSERT_EQ(tried.candidates[static_cast<std::size_t>(viscous.candidate)].label(), "viscous@mLA");
+TEST_F(Choose, FewerConstantsAreNoEvidence) {
+  ASSERT_GE(tried_.refits.size(), 2U);
+  tried_.refits.resize(2);
+  Refit& coulomb = tried_.refits[0];
+  Refit& viscous = tried_.refits[1];
+  ASSERT_EQ(tried_.candidates[static_cast<std::size_t>(viscous.candidate)].label(), "viscous@mLA");
   const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
-  set_squares(squares, {1.03}, data, viscous);
-  EXPECT_EQ(choose(tried.stage, tried.refits, data, options).named, 0);
-  set_squares(squares, {0.53, 1.53}, data, viscous);
+  set_squares(squares, {1.03}, data_, viscous);
+  EXPECT_EQ(choose(tried_.stage, tried_.refits, data_, options_).named, 0);
+  set_squares(squares, {0.53, 1.53}, data_, viscous);
   ASSERT_GT(viscous.square(), coulomb.square());
-  EXPECT_EQ(choose(tried.stage, tried.refits, data, options).named, 1);
+  EXPECT_EQ(choose(tried_.stage, tried_.refits, data_, options_).named, 1);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/diagnoser.h"
 #include "validation/diagnose/finish.h"
-#include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
 namespace {
@@ -16,10 +15,6 @@ Followed followed_further(const Data& data, const Followed& segments, bool in_an
                           const Progress& progress, const Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   return follow_further(fitted_model(diagnosis.final_stage), data, segments, in_any_case);
-}
-
-bool are_too_many_lost(const Data& data, const Followed& followed) {
-  return not_followed(data, followed) > most_lost(data.segments(followed.length).windows.size());
 }
 
 class BySegments {

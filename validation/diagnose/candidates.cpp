@@ -286,7 +286,7 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       if (place == Place::foot && !changes_ground(model, *law, at)) {
         continue;
       }
-      Candidate candidate{law, place, at, same, {}, {}};
+      Candidate candidate{law, place, at, same, {}};
       if (place == Place::coordinate || place == Place::motor || place == Place::ratio) {
         candidate.scales = motions.at(place, at);
       } else if (place == Place::sensor) {

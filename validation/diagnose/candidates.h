@@ -16,7 +16,7 @@ struct Candidate {
   std::vector<std::string> same_places;  ///< rigidly tied to `at`: the law there is the same law
   effects::Scales scales;                ///< typical magnitudes at the place
   /// Parameters without any effect on this model, as a shift of mass across the plane in which it moves.
-  std::vector<int> without_effect;
+  std::vector<int> without_effect{};
   std::string label() const { return law->declaration().name + "@" + at; }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace plumbline::validation {
@@ -77,18 +78,19 @@ bool is_surely_better(const Refit& other, const Refit& than, const Data& data,
 int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refit>& refits,
                   const std::vector<std::string>& objections, const Data& data,
                   const DiagnoseOptions& options) {
-  int named = -1;
-  for (const std::size_t i : sorted) {
-    if (!objections[i].empty()) {
-      continue;
-    }
-    const bool is_first = named < 0;
-    const auto& best = refits[is_first ? i : static_cast<std::size_t>(named)];
-    if (is_first || (refits[i].own == best.own && is_surely_better(refits[i], best, data, options))) {
-      named = static_cast<int>(i);
+  std::vector<std::size_t> open;
+  std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(open),
+               [&](std::size_t i) { return objections[i].empty(); });
+  if (open.empty()) {
+    return -1;
+  }
+  std::size_t named = open.front();
+  for (const std::size_t i : open) {
+    if (refits[i].own == refits[named].own && is_surely_better(refits[i], refits[named], data, options)) {
+      named = i;
     }
   }
-  return named;
+  return static_cast<int>(named);
 }
 
 /// What these data cannot tell from the named law: of no more parameters those that win in a fair share of

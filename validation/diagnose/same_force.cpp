@@ -25,7 +25,7 @@ std::optional<Eigen::VectorXd> change(const model::Model& model, const Eigen::Ve
     return std::nullopt;
   }
   model::Model with = model;
-  with.effects.push_back(make_use({law, {}, name.at, {}, {}, {}}, law->typical({})));
+  with.effects.push_back(make_use({law, {}, name.at, {}, {}}, law->typical({})));
   Eigen::VectorXd moved = rates_at_random_states(with);
   if (moved.size() != without.size()) {
     return std::nullopt;

@@ -182,9 +182,7 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
   const Data& data = pool_.data();
   point.x0.resize(data.windows.size());
   std::vector<Reduced> reduced(data.windows.size());
-  const auto is_lost = [&](std::size_t i) {
-    return is_astray(data, static_cast<int>(i), reduced[i], expected.empty() ? reduced[i].sse : expected[i]);
-  };
+  const auto is_lost = [&](int w) { return is_astray(data, w, reduced, expected); };
   std::atomic<std::size_t> lost{0};
   in_turn(true, [&](int w, int before) {
     const auto i = static_cast<std::size_t>(w);
@@ -197,17 +195,17 @@ std::vector<Reduced> InitialStates::settle_in_turn(const Settling& settling, Poi
     if (is_given) {
       try_start(w, start, settling, point, reduced[i]);
     }
-    if (!is_given || is_lost(i)) {
+    if (!is_given || is_lost(w)) {
       try_from_before(w, before, settling, point, reduced[i]);
     }
     if (!is_given && is_above_floor(data, w, reduced[i].raw_sse)) {
       start = measured_start(w, point);
       try_start(w, start, settling, point, reduced[i]);
     }
-    if (is_lost(i)) {
+    if (is_lost(w)) {
       try_grown(w, start, settling, point, reduced[i]);
     }
-    if (is_lost(i)) {
+    if (is_lost(w)) {
       ++lost;
     }
   });
@@ -218,10 +216,7 @@ void InitialStates::settle_lost(const std::vector<double>& promised, const Settl
                                 bool thoroughly, const Point& from, Point& point,
                                 std::vector<Reduced>& reduced) {
   const Data& data = pool_.data();
-  const auto is_lost = [&](int w) {
-    const auto i = static_cast<std::size_t>(w);
-    return is_astray(data, w, reduced[i], promised[i]);
-  };
+  const auto is_lost = [&](int w) { return is_astray(data, w, reduced, promised); };
   const std::vector<int> all = data.all_windows();
   if (static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_lost)) > most_lost(all.size())) {
     return;
@@ -326,11 +321,15 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
   return reduced;
 }
 
-bool is_astray(const Data& data, int window, const Reduced& reduced, double expected) {
+bool is_astray(const Data& data, int window, const std::vector<Reduced>& reduced,
+               const std::vector<double>& expected) {
   constexpr double kKept = 2.0;
   constexpr double kPromised = 1.5;
-  return is_above_floor(data, window, reduced.raw_sse) &&
-         !(reduced.raw_sse <= kKept * expected && reduced.raw_sse <= kPromised * reduced.sse);
+  const auto i = static_cast<std::size_t>(window);
+  const Reduced& one = reduced[i];
+  return is_above_floor(data, window, one.raw_sse) &&
+         !(one.raw_sse <= kKept * (expected.empty() ? one.sse : expected[i]) &&
+           one.raw_sse <= kPromised * one.sse);
 }
 
 std::size_t most_lost(std::size_t windows) { return windows / 4; }

@@ -17,6 +17,8 @@ struct Point {
   std::vector<Eigen::VectorXd> x0;
 };
 
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+
 /// Steps of the initial states, each window by itself. With empty units the parameters have the values that
 /// the point gives them and no equations.
 class InitialStates {
@@ -46,7 +48,7 @@ class InitialStates {
   /// `most` go astray the rest is left, with infinite costs.
   std::vector<Reduced> settle_in_turn(const Settling& settling, Point& point,
                                       const std::vector<double>& expected = {},
-                                      std::size_t most = std::numeric_limits<std::size_t>::max());
+                                      std::size_t most = kAnyNumber);
   /// Windows that have gone astray of the promised squared residuals: once more from where they began, then
   /// from where the one before ends, then from the measurements, and `thoroughly` grown from there. Nothing
   /// is tried where more than most_lost() are.
@@ -94,8 +96,10 @@ std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParam
 bool is_above_floor(const Data& data, int window, double sse, double fits = kFits);
 
 /// Above the floor: has a window more than twice the squared residuals that are expected of it, or does the
-/// next step promise to take a third? Such a search is not at its end, whatever it says.
-bool is_astray(const Data& data, int window, const Reduced& reduced, double expected);
+/// next step promise to take a third? Such a search is not at its end, whatever it says. Where nothing is
+/// expected of any window: than its equations promise.
+bool is_astray(const Data& data, int window, const std::vector<Reduced>& reduced,
+               const std::vector<double>& expected);
 
 /// A quarter of so many windows: where more are lost it is not their states that are wrong, but the model.
 std::size_t most_lost(std::size_t windows);

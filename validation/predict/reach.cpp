@@ -1,7 +1,6 @@
 #include "validation/predict/reach.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -35,12 +34,10 @@ Record settle_in_turn(const model::Model& model, const Data& data, std::vector<E
   for (const int w : data.all_windows()) {
     const auto i = static_cast<std::size_t>(w);
     raw[w] = reduced[i].raw_sse;
-    astray[w] = is_astray(data, w, reduced[i], expected.empty() ? reduced[i].sse : expected[i]) ? 1.0 : 0.0;
+    astray[w] = is_astray(data, w, reduced, expected) ? 1.0 : 0.0;
   }
   return Record().add(at.x0).add(raw).add(astray);
 }
-
-constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 
 /// All windows of `data` in turn, those with a state from there; no more than show that too many are lost.
 SettledWindows settled_in_turn(const model::Model& model, const Data& data,
@@ -212,6 +209,10 @@ std::size_t not_followed(const Data& data, const Followed& followed) {
   }));
 }
 
+bool are_too_many_lost(const Data& data, const Followed& followed) {
+  return not_followed(data, followed) > most_lost(data.segments(followed.length).windows.size());
+}
+
 Followed follow(const model::Model& model, const Data& data) {
   if (can_be_followed_whole(model, data)) {
     return follow_whole(model, data);
@@ -221,8 +222,8 @@ Followed follow(const model::Model& model, const Data& data) {
   const double window = data.predict.window;
   const Data few = data.thinned(kFew);
   const Followed tried = follow_in_segments(model, few, kFirstSegments * window);
-  const bool too_long = not_followed(few, tried) > most_lost(few.segments(tried.length).windows.size());
-  return follow_in_segments(model, data, (too_long ? kShortestSegments : kFirstSegments) * window);
+  const double share = are_too_many_lost(few, tried) ? kShortestSegments : kFirstSegments;
+  return follow_in_segments(model, data, share * window);
 }
 
 Followed follow_beginnings(const model::Model& model, const Data& data) {

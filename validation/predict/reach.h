@@ -47,4 +47,7 @@ bool is_whole(const Followed& followed);
 /// How many windows of the length are not followed from their beginning to their end.
 std::size_t not_followed(const Data& data, const Followed& followed);
 
+/// Are these more than most_lost()?
+bool are_too_many_lost(const Data& data, const Followed& followed);
+
 }  // namespace plumbline::validation
