@@ -7,8 +7,8 @@
 namespace plumbline::validation {
 namespace {
 
-// The first rung is of short segments of the windows on which nothing was missing, the last of all that could be
-// followed.
+// The first rung is of short segments of the windows on which nothing was missing, the last of all that could
+// be followed.
 TEST(Conclude, WhereNothingWasAddedTheLastErrorCounts) {
   const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(2);
   Diagnosis diagnosis;

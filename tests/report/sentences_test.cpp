@@ -1,4 +1,4 @@
-// What a diagnosis says of itself in about two sentences.
+// What a diagnosis says of itself in a few sentences.
 #include "validation/report/sentences.h"
 
 #include <gmock/gmock.h>
@@ -45,6 +45,20 @@ TEST(Summary, SaysWhichWindowsEndEarly) {
   EXPECT_THAT(summary(diagnosis), HasSubstr("1 of 14 windows is not followed to its end"));
   diagnosis.cut_windows = 2;
   EXPECT_THAT(summary(diagnosis), HasSubstr("2 of 14 windows are not followed to their end"));
+}
+
+TEST(Summary, SaysWhatTheTrainTrialsLeaveOpen) {
+  Diagnosis diagnosis = found({"com_shift"}, Verdict::missing, 12.5, 1.02);
+  Scores& at_best_values = diagnosis.ladder[1].stage.estimate.scores;
+  at_best_values.held_out = 1.05;
+  EXPECT_THAT(summary(diagnosis), Not(HasSubstr("With caution")));
+  at_best_values.held_out = 2.49;
+  EXPECT_THAT(summary(diagnosis),
+              HasSubstr("With caution: at the values that serve the train trials best the "
+                        "held-out error is 2.49 times the floor. 1.02 grants"));
+  diagnosis.verdict = Verdict::nothing_missing;
+  diagnosis.accepted.clear();
+  EXPECT_THAT(summary(diagnosis), HasSubstr("With caution"));
 }
 
 TEST(Summary, APartIsNotTheAnswer) {

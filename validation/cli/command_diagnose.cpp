@@ -98,9 +98,11 @@ void print_verdict(const Diagnosis& diagnosis) {
     print_rivals("On this model it is the same force as", finding, true);
     print_rivals("These data cannot tell it from", finding, false);
   }
-  const std::string part = validation::part_sentence(diagnosis);
-  if (!part.empty()) {
-    fmt::print("{}\n", part);
+  for (const std::string& more :
+       {validation::open_values_sentence(diagnosis), validation::part_sentence(diagnosis)}) {
+    if (!more.empty()) {
+      fmt::print("{}\n", more);
+    }
   }
   if (diagnosis.accepted.empty() || last.foretold() <= 0.0) {
     return;
@@ -154,8 +156,8 @@ void print_own_parameters(const std::vector<OwnParameter>& parameters) {
 /// On how long windows the errors are is said where these are not the whole ones.
 void print_ladder(const std::vector<validation::Rung>& ladder) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
-  const bool in_segments =
-      std::any_of(ladder.begin(), ladder.end(), [](const validation::Rung& rung) { return !std::isinf(rung.length); });
+  const bool in_segments = std::any_of(ladder.begin(), ladder.end(),
+                                       [](const validation::Rung& rung) { return !std::isinf(rung.length); });
   std::vector<std::string> head{"model", "train", "held-out", "foretold"};
   if (in_segments) {
     head.insert(head.begin() + 1, "windows");
@@ -165,7 +167,8 @@ void print_ladder(const std::vector<validation::Rung>& ladder) {
     rows.push_back({rung.name, fmt::format("{:.3f}", rung.train()), fmt::format("{:.3f}", rung.held_out()),
                     fmt::format("{:.3f}", rung.foretold())});
     if (in_segments) {
-      rows.back().insert(rows.back().begin() + 1, std::isinf(rung.length) ? "whole" : fmt::format("{:.2g} s", rung.length));
+      rows.back().insert(rows.back().begin() + 1,
+                         std::isinf(rung.length) ? "whole" : fmt::format("{:.2g} s", rung.length));
     }
   }
   print_table(head, rows);

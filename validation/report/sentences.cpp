@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline::validation {
@@ -101,7 +102,8 @@ std::string of_segments(const Diagnosis& diagnosis) {
     return "";
   }
   const std::string where = fmt::format(
-      "As given the model loses the motion: it was diagnosed on windows of about {:.2g} s, through contact too.",
+      "As given the model loses the motion: it was diagnosed on windows of about {:.2g} s, through contact "
+      "too.",
       first);
   if (std::isinf(last)) {
     return where + " With what was found the last error is that of the whole windows.";
@@ -123,12 +125,29 @@ std::string part_sentence(const Diagnosis& diagnosis) {
   return said;
 }
 
+std::string open_values_sentence(const Diagnosis& diagnosis) {
+  constexpr double kMuch = 1.1;
+  const Rung& last = diagnosis.ladder.back();
+  const double granted = std::max(last.foretold(), 1.0);
+  if (last.held_out() < kMuch * granted) {
+    return "";
+  }
+  return fmt::format(
+      "With caution: at the values that serve the train trials best the held-out error is {:.2f} times the "
+      "floor. {:.2f} grants what the train trials leave open; ones that move as the held-out ones do would "
+      "tell more.",
+      last.held_out(), last.foretold());
+}
+
 std::string summary(const Diagnosis& diagnosis) {
   if (diagnosis.ladder.empty()) {
     return "Nothing was finished.";
   }
-  const std::string part = part_sentence(diagnosis);
-  return whole_summary(diagnosis) + (part.empty() ? "" : " " + part);
+  std::string said = whole_summary(diagnosis);
+  for (const std::string& more : {open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
+    said += more.empty() ? "" : " " + more;
+  }
+  return said;
 }
 
 }  // namespace plumbline::validation

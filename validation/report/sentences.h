@@ -18,7 +18,11 @@ std::string finding_sentences(const Finding& finding, Verdict verdict);
 /// windows end early; empty where that is the whole.
 std::string part_sentence(const Diagnosis& diagnosis);
 
-/// The whole answer in about two sentences.
+/// Where the held-out error at the train trials' best values is much larger than the foretold one, which
+/// decides (validation/predict/foretell.h): a caution with both; else empty. Needs a rung on the ladder.
+std::string open_values_sentence(const Diagnosis& diagnosis);
+
+/// The whole answer in a few sentences.
 std::string summary(const Diagnosis& diagnosis);
 
 }  // namespace plumbline::validation
