@@ -6,6 +6,7 @@
 
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/look_ahead.h"
+#include "validation/diagnose/objection.h"
 
 namespace plumbline::validation {
 namespace {

@@ -5,6 +5,9 @@
 #include <iterator>
 #include <numeric>
 
+#include "validation/diagnose/objection.h"
+#include "validation/diagnose/resample.h"
+
 namespace plumbline::validation {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "validation/diagnose/resample.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {

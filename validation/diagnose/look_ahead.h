@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "validation/diagnose/confirm.h"
+#include "validation/diagnose/refit.h"
 
 namespace plumbline::validation {
 

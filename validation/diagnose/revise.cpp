@@ -6,6 +6,7 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
+#include "validation/diagnose/resample.h"
 
 namespace plumbline::validation {
 namespace {

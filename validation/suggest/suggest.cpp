@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "simulator/trace/error.h"
-#include "validation/diagnose/confirm.h"
+#include "validation/diagnose/refit.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {

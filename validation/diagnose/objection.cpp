@@ -1,0 +1,156 @@
+#include "validation/diagnose/objection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "validation/predict/deviations.h"
+
+namespace plumbline::validation {
+namespace {
+
+bool on_bound(const FreeParameter& parameter, double value) {
+  const double reach = 1e-9 * std::max(parameter.typical, std::abs(value));  // the search stops on a bound
+  return value - parameter.lower < reach || parameter.upper - value < reach;
+}
+
+/// The parameters of one effect and their fitted values.
+struct OwnPart {
+  std::vector<FreeParameter> parameters;
+  Eigen::VectorXd theta;
+};
+
+OwnPart part_of(const Refit& refit, const Eigen::VectorXd& theta, int effect) {
+  OwnPart part;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < refit.extended.parameters.size(); ++p) {
+    if (refit.extended.parameters[p].id.effect == effect) {
+      part.parameters.push_back(refit.extended.parameters[p]);
+      values.push_back(theta[static_cast<Eigen::Index>(p)]);
+    }
+  }
+  part.theta = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return part;
+}
+
+/// Change of an added effect's parameters that the held-out windows alone would ask for, relative, after
+/// everything has moved as far towards them as the train windows leave open.
+double disagreement(const Refit& refit, int effect, const Data& data) {
+  const std::vector<int> windows = data.windows_of(Role::held_out);
+  const Eigen::VectorXd& theta = refit.estimate.predicted.theta;
+  const OwnPart own = part_of(refit, theta, effect);
+  const Eigen::Index n = own.theta.size();
+  if (windows.empty() || n == 0) {
+    return 0.0;
+  }
+  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, theta), data);
+  const Eigen::VectorXd units = search_units(own.parameters, own.theta);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+  for (const Reduced& one : reduce(pool, windows, own.parameters, own.theta, refit.estimate.x0, units)) {
+    H += one.H;
+    g += one.g;
+  }
+  // Along the best-determined direction of the law: how strong the held-out motion wants the whole law.
+  Eigen::VectorXd direction(n);
+  for (Eigen::Index p = 0; p < n; ++p) {
+    direction[p] = to_search(own.parameters[static_cast<std::size_t>(p)].scale, own.theta[p]) / units[p];
+  }
+  const double curvature = direction.dot(H * direction);
+  return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
+}
+
+/// Name of a parameter without which the law would be null and which cannot be told from its null value: play
+/// without a gap, a stretch without a compliance. Then something else about the law must have helped.
+std::string undecided(const Refit& refit, const Data& data) {
+  constexpr double kDeviations = 2.0;
+  PredictorPool pool(refit.extended.model, data);
+  const std::vector<FreeParameter>& parameters = refit.extended.parameters;
+  Estimate at = refit.estimate;
+  at.theta = refit.estimate.predicted.theta;
+  const Eigen::VectorXd deviations = precision_of(pool, data.all_windows(), parameters, at).deviations;
+  const model::Model fitted = with_values(refit.extended.model, parameters, at.theta);
+  for (std::size_t p = parameters.size() - static_cast<std::size_t>(refit.own); p < parameters.size(); ++p) {
+    const model::EffectUse& use = fitted.effects[static_cast<std::size_t>(parameters[p].id.effect)];
+    const effects::Values values = use.numbers();
+    const auto own = static_cast<std::size_t>(parameters[p].id.parameter);
+    const double null = use.law->declaration().parameters[own].null_value;
+    effects::Values without = values;
+    without[own] = null;
+    const effects::Scale scale = parameters[p].scale;
+    const double distance = std::abs(to_search(scale, values[own]) - to_search(scale, null));
+    const double deviation =
+        deviations[static_cast<Eigen::Index>(p)] / std::abs(search_slope(scale, values[own]));
+    if (use.law->is_null(without.data()) && distance < kDeviations * deviation) {
+      return parameters[p].label;
+    }
+  }
+  return "";
+}
+
+/// A lone parameter of an added effect that is on its bound; empty when there is none.
+std::string unphysical(const Refit& refit) {
+  for (const int effect : refit.added) {
+    const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
+    if (own.parameters.size() == 1 && on_bound(own.parameters.front(), own.theta[0])) {
+      return own.parameters.front().label;
+    }
+  }
+  return "";
+}
+
+/// What `check` says of a refit, if the model can be integrated close to its values.
+template <typename Check>
+std::string unless_unsteady(const Check& check) {
+  try {
+    return check();
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return "unsteady: close to its fitted values it cannot be integrated";
+  }
+}
+
+}  // namespace
+
+// The held-out motion may be the one that decides: at the values that serve all windows, of those that the
+// train windows leave open.
+std::string flaw(const Refit& refit, const Data& data) {
+  const std::string bound = unphysical(refit);
+  if (!bound.empty()) {
+    return "unphysical: " + bound + " is at its bound";
+  }
+  return unless_unsteady([&]() -> std::string {
+    const std::string open = undecided(refit, data);
+    return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
+  });
+}
+
+std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
+                      const DiagnoseOptions& options) {
+  const Scores& before = stage.estimate.predicted.scores;
+  const Scores& after = refit.estimate.predicted.scores;
+  const bool judged = data.has(Role::held_out);
+  const double fall = judged ? 1.0 - after.held_out / before.held_out : 1.0 - after.train / before.train;
+  const auto percent = [](double value) {
+    return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %";
+  };
+  if (fall < options.material) {
+    const std::string error = judged ? "held-out error" : "train error";
+    return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
+  }
+  if (share < options.stable) {
+    return "unstable: chosen in only " + percent(share) + " of the resamples";
+  }
+  return unless_unsteady([&]() -> std::string {
+    for (const int effect : refit.added) {
+      const double apart = disagreement(refit, effect, data);
+      if (apart > options.consistent) {
+        return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
+      }
+    }
+    return "";
+  });
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,201 @@
+#include "validation/diagnose/refit.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "validation/diagnose/first_of_each.h"
+#include "validation/predict/carried_states.h"
+
+namespace plumbline::validation {
+namespace {
+
+bool jumps(const model::EffectUse& use) {
+  const auto* law = dynamic_cast<const effects::ForceLaw*>(use.law.get());
+  return law != nullptr && law->jumps(use.numbers().data()) > 0;
+}
+
+Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                const Data& data, int iterations) {
+  Refit result;
+  result.candidate = hypothesis.candidate;
+  result.extended = extend(stage, candidate, hypothesis.start);
+  result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());
+  result.added = {static_cast<int>(result.extended.model.effects.size()) - 1};
+  const Eigen::VectorXd theta = promised_theta(result.extended, hypothesis);
+  // The promised values decide whether states are added, so the model must hold them before it is built.
+  result.extended.model = with_values(result.extended.model, result.extended.parameters, theta);
+  PredictorPool pool(result.extended.model, data);
+  // In the midst of a contact the states that a straight line promises may be none that can be.
+  const std::vector<Eigen::VectorXd> x0 =
+      data.has_segments()
+          ? carried_states(fitted_model(stage), result.extended.model, data, stage.estimate.x0)
+          : hypothesis.x0;
+  // The way over the windows' beginnings is for the law that is new; what was there has gone it.
+  const bool by_parts = jumps(result.extended.model.effects.back());
+  result.estimate = gauss_newton(pool, result.extended.parameters, theta, x0, {iterations, 5e-3, by_parts});
+  result.extended.theta = result.estimate.theta;
+  return result;
+}
+
+void continue_refit(Refit& refit, const Data& data, int iterations) {
+  PredictorPool pool(refit.extended.model, data);
+  refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
+                                {iterations, 2e-3, false});
+  refit.extended.theta = refit.estimate.theta;
+}
+
+/// Nothing is left to explain by the best (`refits` is sorted).
+bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
+  return !refits.empty() && refits.front().square() <= 2.0 * options.finished * options.finished;
+}
+
+/// A full refit, if it can be had.
+void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Progress& progress) {
+  if (one.is_full || one.estimate.converged) {
+    return;
+  }
+  progress("finishing " + candidate.label(), 0.9);
+  one.is_full = true;
+  Refit further = one;
+  try {
+    continue_refit(further, data, 16);
+    one = std::move(further);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return;  // where the fit would go it cannot be integrated: it stays where it is
+  }
+}
+
+/// The best so far, in full before the others are tried, where it explains nearly all: once it is at the
+/// floor they need not be.
+void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::vector<Candidate>& candidates,
+                   const Data& data, const Progress& progress) {
+  constexpr double kLeft = 0.1;
+  Refit& leader = refits.front();
+  if (leader.square() < kLeft * stage.estimate.predicted.scores.square()) {
+    finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, progress);
+  }
+}
+
+/// Full refits of those that are near the best; above the floor of the first few in any case: the best so far
+/// may be refused, or a law with a threshold may still be on its way.
+void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
+            const DiagnoseOptions& options, const Progress& progress) {
+  constexpr std::size_t kFirst = 3;
+  for (std::size_t r = 0; r < refits.size(); ++r) {
+    Refit& one = refits[r];
+    const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
+    if (near || (r < kFirst && !at_floor(refits, options))) {
+      finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, progress);
+    }
+  }
+  sort_by_error(refits);
+}
+
+/// Further starts of the two best candidates: a law with a threshold inside the motion has several minima,
+/// and above the floor the right one may not have been met.
+std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
+                                            const std::vector<Hypothesis>& hypotheses) {
+  constexpr std::size_t kBest = 2;
+  constexpr int kStarts = 3;
+  std::vector<const Hypothesis*> others;
+  for (std::size_t r = 0; r < std::min(kBest, refits.size()); ++r) {
+    int met = 0;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (hypothesis.candidate == refits[r].candidate && met++ > 0 && met <= 1 + kStarts) {
+        others.push_back(&hypothesis);
+      }
+    }
+  }
+  return others;
+}
+
+/// Of several refits of one candidate only the first, which is the best.
+void keep_best_of_each(std::vector<Refit>& refits) {
+  refits = first_of_each(std::move(refits), [](const Refit& one, const Refit& other) {
+    return one.candidate == other.candidate;
+  });
+}
+
+}  // namespace
+
+void sort_by_error(std::vector<Refit>& refits) {
+  std::stable_sort(refits.begin(), refits.end(),
+                   [](const Refit& a, const Refit& b) { return a.square() < b.square(); });
+}
+
+std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
+                         const std::vector<Hypothesis>& hypotheses, const Data& data,
+                         const DiagnoseOptions& options, const Progress& progress) {
+  // Segments are short enough for a straight line: fewer candidates need a refit.
+  constexpr int kRefitsOnSegments = 5;
+  const bool straight = data.has_segments();
+  const double kept_promise = straight ? 1.2 : 2.5;
+  const int most = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
+  std::vector<const Hypothesis*> chosen;
+  std::map<int, int> starts_of;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (static_cast<int>(chosen.size()) >= most) {
+      break;
+    }
+    if (starts_of[hypothesis.candidate]++ == 0) {
+      chosen.push_back(&hypothesis);
+    }
+  }
+  std::vector<Refit> refits;
+  const auto add = [&](const Hypothesis& hypothesis, double done) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
+    progress("refitting " + candidate.label(), done);
+    try {
+      refits.push_back(refit_one(stage, candidate, hypothesis, data, 4));
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      return;  // it cannot be integrated: no explanation of these trials
+    }
+    sort_by_error(refits);
+    if (refits.size() == 2) {
+      finish_leader(stage, refits, candidates, data, progress);
+    }
+  };
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
+    // best so far may itself be refused, and a promise made by a straight line says little.
+    if (refits.size() < 2 || !at_floor(refits, options) ||
+        chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
+      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
+    }
+  }
+  finish(refits, candidates, data, options, progress);
+  if (!refits.empty() && !at_floor(refits, options)) {
+    for (const Hypothesis* other : other_starts(refits, hypotheses)) {
+      add(*other, 0.9);
+    }
+    keep_best_of_each(refits);
+    finish(refits, candidates, data, options, progress);
+  }
+  return refits;
+}
+
+Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& second,
+                 const PairHypothesis& promise, const Data& data) {
+  const Extended with_first = extend(stage, first, promise.first.start);
+  Estimate unmoved = stage.estimate;
+  unmoved.theta = with_first.theta;
+  Hypothesis both = promise.second;
+  both.step = promise.step;
+  Refit result = refit_one({with_first.model, with_first.parameters, unmoved}, second, both, data, 8);
+  const auto effect = static_cast<int>(result.extended.model.effects.size());
+  result.added = {effect - 2, effect - 1};
+  result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());
+  return result;
+}
+
+Stage after(const Refit& refit) {
+  return {with_values(refit.extended.model, refit.extended.parameters, refit.estimate.theta),
+          refit.extended.parameters, refit.estimate};
+}
+
+}  // namespace plumbline::validation
