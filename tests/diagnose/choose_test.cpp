@@ -39,7 +39,7 @@ TEST_F(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
   // Nothing at the best value for train is no flaw where train leaves it open and the held-out motion
   // decides.
   best.estimate.theta[level] = 0.0;
-  EXPECT_EQ(flaw(best, data_), "");
+  EXPECT_EQ(flaw(best, data_, options_), "");
   best.extended.parameters.back().upper = best.estimate.predicted.theta[level];
   const Choice after = choose(tried_.stage, tried_.refits, data_, options_);
   EXPECT_THAT(after.objections[0], testing::HasSubstr("unphysical"));
@@ -72,6 +72,25 @@ TEST_F(Choose, FewerConstantsAreNoEvidence) {
   set_squares(squares, {0.53, 1.53}, data_, viscous);
   ASSERT_GT(viscous.square(), coulomb.square());
   EXPECT_EQ(choose(tried_.stage, tried_.refits, data_, options_).named, 1);
+}
+
+// At the floor what is left is noise, and a law that leaves surely less is the better one though it has a
+// parameter more. Above it all of them are wrong somewhere, and a little less is no evidence.
+TEST_F(Choose, ASimplerLawIsPreferredWhereMoreThanNoiseIsLeft) {
+  ASSERT_GE(tried_.refits.size(), 2U);
+  tried_.refits.resize(2);
+  Refit& coulomb = tried_.refits[0];
+  Refit& viscous = tried_.refits[1];
+  viscous.own = 0;
+  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
+  const auto named_at = [&](double level) {
+    set_squares(squares, {level * level}, data_, coulomb);
+    set_squares(squares, {1.03 * level * level}, data_, viscous);
+    coulomb.estimate.scores = coulomb.estimate.predicted.scores;
+    return choose(tried_.stage, tried_.refits, data_, options_).named;
+  };
+  EXPECT_EQ(named_at(1.0), 0);
+  EXPECT_EQ(named_at(1.5), 1);
 }
 
 }  // namespace

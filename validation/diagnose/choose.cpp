@@ -55,7 +55,7 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
     for (const std::size_t i : asked) {
       if (!seen[i]) {
         seen[i] = true;
-        choice.objections[i] = flaw(refits[i], data);
+        choice.objections[i] = flaw(refits[i], data, options);
         all_seen = all_seen && choice.objections[i].empty();
       }
     }
@@ -76,8 +76,9 @@ bool is_surely_better(const Refit& other, const Refit& than, const Data& data,
          share_better(other, than, data, options) > 1.0 - kFair;
 }
 
-/// The first of those that could be named, simplest first; of as many fitted parameters one that is surely
-/// better, for fewer constants are no evidence.
+/// The first of those that could be named, simplest first, unless another one is surely better: of as many
+/// fitted parameters, for fewer constants are no evidence, or at the floor, where what is left is noise and
+/// not the trace of something else that is missing.
 int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refit>& refits,
                   const std::vector<std::string>& objections, const Data& data,
                   const DiagnoseOptions& options) {
@@ -89,7 +90,9 @@ int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refi
   }
   std::size_t named = open.front();
   for (const std::size_t i : open) {
-    if (refits[i].own == refits[named].own && is_surely_better(refits[i], refits[named], data, options)) {
+    const bool counts =
+        refits[i].own == refits[named].own || is_below(options.at_floor, refits[i].estimate, data);
+    if (counts && is_surely_better(refits[i], refits[named], data, options)) {
       named = i;
     }
   }

@@ -20,9 +20,9 @@ struct Choice {
 };
 
 /// Of the refits (best first) without a flaw that are about as good as the best, the one with the fewest
-/// fitted parameters is named (a law that contains another is not preferred to it for an immaterial gain), of
-/// equally many the one with the fewest constants unless another is better in nearly all resamples, if
-/// nothing speaks against it.
+/// fitted parameters is named, of equally many the one with the fewest constants, if nothing speaks against
+/// it. Better in nearly all resamples counts for more among equally many parameters, and at the floor; above
+/// it a law that contains another is not preferred to it for an immaterial gain.
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options);
 

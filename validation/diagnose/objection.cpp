@@ -60,9 +60,44 @@ double disagreement(const Refit& refit, int effect, const Data& data) {
   return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
 }
 
+/// Mean square of a refit (Refit::square) with one parameter held at a value and all others fitted anew.
+double square_with(double value, std::size_t parameter, const Refit& refit, const Data& data) {
+  constexpr int kIterations = 16;
+  std::vector<FreeParameter> others = refit.extended.parameters;
+  Eigen::VectorXd theta = refit.estimate.predicted.theta;
+  const auto p = static_cast<Eigen::Index>(parameter);
+  theta[p] = value;
+  const model::Model held = with_values(refit.extended.model, others, theta);
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
+  Eigen::VectorXd start(theta.size() - 1);
+  start << theta.head(p), theta.tail(start.size() - p);
+  PredictorPool pool(held, data);
+  return gauss_newton(pool, others, start, refit.estimate.x0, {kIterations, 2e-3, false})
+      .predicted.scores.square();
+}
+
+/// Is the error materially larger a tenth of a value's way from nothing than at the value, whatever the other
+/// parameters do? Where the model cannot be integrated this is not known: no.
+bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
+               const DiagnoseOptions& options) {
+  constexpr double kNear = 0.1;
+  const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
+  const double most = 1.0 + options.material;
+  try {
+    return square_with(null + kNear * (value - null), parameter, refit, data) >
+           most * most * square_with(value, parameter, refit, data);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 /// Name of a parameter without which the law would be null and which cannot be told from its null value: play
-/// without a gap, a stretch without a compliance. Then something else about the law must have helped.
-std::string undecided(const Refit& refit, const Data& data) {
+/// without a gap, a stretch without a compliance. Then something else about the law must have helped. Its
+/// deviation alone does not show this: that is of a straight line, along which a stiffness becomes nothing
+/// while the rest does not go to where the same force would ask for it.
+std::string undecided(const Refit& refit, const Data& data, const DiagnoseOptions& options) {
   constexpr double kDeviations = 2.0;
   PredictorPool pool(refit.extended.model, data);
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
@@ -81,7 +116,8 @@ std::string undecided(const Refit& refit, const Data& data) {
     const double distance = std::abs(to_search(scale, values[own]) - to_search(scale, null));
     const double deviation =
         deviations[static_cast<Eigen::Index>(p)] / std::abs(search_slope(scale, values[own]));
-    if (use.law->is_null(without.data()) && distance < kDeviations * deviation) {
+    if (use.law->is_null(without.data()) && distance < kDeviations * deviation &&
+        !is_needed(p, null, refit, data, options)) {
       return parameters[p].label;
     }
   }
@@ -115,13 +151,13 @@ std::string unless_unsteady(const Check& check) {
 
 // The held-out motion may be the one that decides: at the values that serve all windows, of those that the
 // train windows leave open.
-std::string flaw(const Refit& refit, const Data& data) {
+std::string flaw(const Refit& refit, const Data& data, const DiagnoseOptions& options) {
   const std::string bound = unphysical(refit);
   if (!bound.empty()) {
     return "unphysical: " + bound + " is at its bound";
   }
   return unless_unsteady([&]() -> std::string {
-    const std::string open = undecided(refit, data);
+    const std::string open = undecided(refit, data, options);
     return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
   });
 }

@@ -1,0 +1,60 @@
+// What speaks against a refit: a value that cannot be told from no effect.
+#include "validation/diagnose/objection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/bench.h"
+#include "validation/diagnose/look_ahead.h"
+#include "validation/diagnose/own_parameters.h"
+#include "validation/predict/deviations.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// The bench with its own numbers open and fitted.
+Stage with_fitted_numbers(const Data& data) {
+  Stage stage = with_open_numbers(as_given(bench(), data), 0, 3.0, data);
+  PredictorPool pool(stage.model, data);
+  stage.estimate =
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {12, 1e-4});
+  return stage;
+}
+
+const Refit& refit_of(const std::string& label, const Tried& tried) {
+  for (const Refit& refit : tried.refits) {
+    if (tried.candidates[static_cast<std::size_t>(refit.candidate)].label() == label) {
+      return refit;
+    }
+  }
+  throw std::invalid_argument("no refit of " + label);
+}
+
+double stiffness_in_deviations(const Refit& refit, const Data& data) {
+  PredictorPool pool(refit.extended.model, data);
+  Estimate at = refit.estimate;
+  at.theta = at.predicted.theta;
+  const Precision precision = precision_of(pool, data.all_windows(), refit.extended.parameters, at);
+  const Eigen::Index stiffness = at.theta.size() - 2;
+  return at.theta[stiffness] / precision.deviations[stiffness];
+}
+
+// Beside the leg's own spring, whose stiffness is uncertain, a further one is little more than its force at
+// its rest: by deviations its stiffness could be nothing. But the rest that would then give that force is out
+// of reach, and without the spring the error is large.
+TEST(Objection, AStiffnessThatTradesWithItsRestIsNotNothing) {
+  const Data data = bench_twins({"spring@leg_shape:stiffness=0.58,rest=0.284"}).thinned(8);
+  const Stage stage = with_fitted_numbers(data);
+  const Tried tried = try_candidates(stage, some_laws({"spring"}), {}, data, {},
+                                     [](const std::string& /*what*/, double /*fraction*/) {});
+  const Refit& hidden = refit_of("spring@leg_shape", tried);
+  ASSERT_GT(stage.estimate.predicted.scores.square(), 3.0 * hidden.square());
+  ASSERT_LT(stiffness_in_deviations(hidden, data), 2.0);
+  EXPECT_EQ(flaw(hidden, data, {}), "");
+  // What is as good without it is still refused.
+  const Refit& elsewhere = refit_of("spring@shin", tried);
+  EXPECT_THAT(flaw(elsewhere, data, {}), testing::HasSubstr("stiffness cannot be told from no effect"));
+}
+
+}  // namespace
+}  // namespace plumbline::validation
