@@ -22,5 +22,37 @@ TEST(Refit, OfTheOthersIsNotNeededOnceTheBestIsAtTheFloor) {
   EXPECT_LT(best.estimate.scores.train, 1.1);
 }
 
+const Hypothesis& best_start(const std::string& label, const Tried& tried) {
+  for (const Hypothesis& hypothesis : tried.hypotheses) {
+    if (tried.candidates[static_cast<std::size_t>(hypothesis.candidate)].label() == label) {
+      return hypothesis;
+    }
+  }
+  throw std::invalid_argument("no hypothesis of " + label);
+}
+
+// A hard stop comes below 1.2 floors where a spring on one side is hidden, but not to the floor: a law whose
+// promise is bad may still be the one that does, for a straight line says little of where it begins to act.
+TEST(Refit, OfTheOthersIsNeededWhereTheBestIsNearTheFloorOnly) {
+  const Data data = bench_twins({"unilateral_spring@leg_shape:stiffness=3.2,preload=0.08,rest=0.3293,side=-1,"
+                                 "smoothing_length=0.005"})
+                        .thinned(8);
+  const Tried tried = try_candidates(as_given(bench(), data), some_laws({"hard_stop", "unilateral_spring"}),
+                                     {}, data, {}, silent);
+  std::vector<Hypothesis> hypotheses{best_start("hard_stop@leg_shape", tried),
+                                     best_start("hard_stop@shin", tried),
+                                     best_start("unilateral_spring@leg_shape", tried)};
+  hypotheses.back().promised_train = hypotheses.back().promised_held_out = 100.0;
+  const std::vector<Refit> refits = refit(tried.stage, tried.candidates, hypotheses, data, {}, silent);
+  ASSERT_EQ(refits.size(), 3U);
+  const auto label = [&](const Refit& one) {
+    return tried.candidates[static_cast<std::size_t>(one.candidate)].label();
+  };
+  EXPECT_EQ(label(refits[0]), "unilateral_spring@leg_shape");
+  ASSERT_EQ(label(refits[1]), "hard_stop@leg_shape");
+  EXPECT_GT(refits[1].estimate.predicted.scores.held_out, 1.1);
+  EXPECT_LT(refits[1].estimate.predicted.scores.held_out, 1.2);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "validation/diagnose/choose.h"
 #include "validation/diagnose/diagnoser.h"
 #include "validation/diagnose/finish.h"
+#include "validation/diagnose/judged.h"
 
 namespace plumbline::validation {
 namespace {

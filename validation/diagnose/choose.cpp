@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/objection.h"
 #include "validation/diagnose/resample.h"
 
@@ -120,14 +121,6 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
 }
 
 }  // namespace
-
-double judged(const Estimate& estimate, const Data& data) {
-  return data.has(Role::held_out) ? estimate.predicted.scores.held_out : estimate.scores.train;
-}
-
-bool is_below(double limit, const Estimate& estimate, const Data& data) {
-  return judged(estimate, data) < limit && estimate.scores.train < limit;
-}
 
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options) {

@@ -26,10 +26,4 @@ struct Choice {
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
               const DiagnoseOptions& options);
 
-/// The error that counts: held-out, as foretold, where there is one.
-double judged(const Estimate& estimate, const Data& data);
-
-/// Are that error and the one on train both below a limit, in floors?
-bool is_below(double limit, const Estimate& estimate, const Data& data);
-
 }  // namespace plumbline::validation

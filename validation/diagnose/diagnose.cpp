@@ -4,10 +4,10 @@
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/by_segments.h"
-#include "validation/diagnose/choose.h"
 #include "validation/diagnose/diagnoser.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/finish.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/same_force.h"
 #include "validation/predict/initial_states.h"

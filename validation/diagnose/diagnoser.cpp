@@ -11,6 +11,7 @@
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/finish.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/promise.h"
 #include "validation/diagnose/revise.h"

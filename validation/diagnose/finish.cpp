@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "validation/diagnose/choose.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {

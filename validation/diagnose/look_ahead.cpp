@@ -4,8 +4,8 @@
 #include <optional>
 #include <set>
 
-#include "validation/diagnose/choose.h"
 #include "validation/diagnose/first_of_each.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
 #include "validation/diagnose/tangents.h"
 

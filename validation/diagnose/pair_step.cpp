@@ -2,6 +2,7 @@
 
 #include "validation/diagnose/accept.h"
 #include "validation/diagnose/findings.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "validation/diagnose/first_of_each.h"
+#include "validation/diagnose/judged.h"
 #include "validation/predict/carried_states.h"
 
 namespace plumbline::validation {
@@ -46,8 +47,8 @@ void continue_refit(Refit& refit, const Data& data, int iterations) {
 }
 
 /// Nothing is left to explain by the best (`refits` is sorted).
-bool at_floor(const std::vector<Refit>& refits, const DiagnoseOptions& options) {
-  return !refits.empty() && refits.front().square() <= 2.0 * options.finished * options.finished;
+bool at_floor(const std::vector<Refit>& refits, const Data& data, const DiagnoseOptions& options) {
+  return !refits.empty() && is_below(options.nothing, refits.front().estimate, data);
 }
 
 /// A full refit, if it can be had.
@@ -87,7 +88,7 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
     const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
-    if (near || (r < kFirst && !at_floor(refits, options))) {
+    if (near || (r < kFirst && !at_floor(refits, data, options))) {
       finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, progress);
     }
   }
@@ -163,13 +164,13 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
     // best so far may itself be refused, and a promise made by a straight line says little.
-    if (refits.size() < 2 || !at_floor(refits, options) ||
+    if (refits.size() < 2 || !at_floor(refits, data, options) ||
         chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
       add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
     }
   }
   finish(refits, candidates, data, options, progress);
-  if (!refits.empty() && !at_floor(refits, options)) {
+  if (!refits.empty() && !at_floor(refits, data, options)) {
     for (const Hypothesis* other : other_starts(refits, hypotheses)) {
       add(*other, 0.9);
     }
