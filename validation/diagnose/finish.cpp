@@ -66,7 +66,7 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
                       Diagnosis& diagnosis) {
   std::vector<Finding>& accepted = diagnosis.accepted;
-  for (std::size_t i = 0; accepted.size() > 1 && i + 1 < accepted.size();) {
+  for (std::size_t i = 0; accepted.size() > 1 && i < accepted.size();) {
     Stage& stage = diagnosis.final_stage;
     const std::string name = accepted[i].label();
     progress("is " + name + " still needed", 0.9);

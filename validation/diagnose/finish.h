@@ -9,7 +9,7 @@ namespace plumbline::validation {
 /// far into the windows as the last.
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
-/// An early guess that the later ones make superfluous is dropped again.
+/// A guess that the others make superfluous is dropped again: an early one, or a rival that took its place.
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
                       Diagnosis& diagnosis);
 
