@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "validation/diagnose/judged.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -76,15 +77,22 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
       .predicted.scores.square();
 }
 
-/// Is the error materially larger a tenth of a value's way from nothing than at the value, whatever the other
-/// parameters do? Where the model cannot be integrated this is not known: no.
+/// Where what is left is about the noise: is the error materially larger a tenth of a value's way from
+/// nothing than at the value, whatever the other parameters do? Above the floor this would be no evidence,
+/// for the law may stand for another one. Where the model cannot be integrated it is not known: no.
 bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
                const DiagnoseOptions& options) {
   constexpr double kNear = 0.1;
+  if (!is_below(options.finished, refit.estimate, data)) {
+    return false;
+  }
+  const effects::Scale scale = refit.extended.parameters[parameter].scale;
   const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
+  const double nothing = to_search(scale, null);
+  const double near = from_search(scale, nothing + kNear * (to_search(scale, value) - nothing));
   const double most = 1.0 + options.material;
   try {
-    return square_with(null + kNear * (value - null), parameter, refit, data) >
+    return square_with(near, parameter, refit, data) >
            most * most * square_with(value, parameter, refit, data);
   } catch (const Stopped&) {
     throw;
