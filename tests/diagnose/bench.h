@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,21 @@ Data bench_twins(const std::vector<std::string>& hidden);
 
 /// A small catalogue: the trial of every law would take minutes.
 effects::Catalogue some_laws(const std::set<std::string>& names);
+
+/// Of refits or hypotheses the first whose candidate has this label ("law@place").
+template <typename One>
+const One& first_of(const std::string& label, const std::vector<One>& some,
+                    const std::vector<Candidate>& candidates) {
+  for (const One& one : some) {
+    if (candidates[static_cast<std::size_t>(one.candidate)].label() == label) {
+      return one;
+    }
+  }
+  throw std::invalid_argument("nothing of " + label);
+}
+
+/// Progress that nobody sees.
+inline void silent(const std::string& /*what*/, double /*fraction*/) {}
 
 /// The model as it is, with the windows' initial states fitted.
 Stage as_given(const model::Model& model, const Data& data);

@@ -11,8 +11,6 @@
 namespace plumbline::validation {
 namespace {
 
-void silent(const std::string& /*what*/, double /*fraction*/) {}
-
 /// Coulomb friction is hidden, and it and viscous friction are tried.
 class Choose : public testing::Test {
  protected:

@@ -1,5 +1,4 @@
 // What is said where a diagnosis ends, and of how many effects.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/diagnose/bench.h"
@@ -68,8 +67,7 @@ TEST(DropSuperfluous, DropsWhatIsNotNeededWhereverItStands) {
   for (const std::vector<std::string>& order :
        {std::vector<std::string>{"coulomb", "viscous"}, std::vector<std::string>{"viscous", "coulomb"}}) {
     Diagnosis diagnosis = named(order, data);
-    drop_superfluous(
-        data, {}, [](const std::string& /*what*/, double /*fraction*/) {}, diagnosis);
+    drop_superfluous(data, {}, silent, diagnosis);
     ASSERT_EQ(diagnosis.accepted.size(), 1U) << order.front() << " first";
     EXPECT_EQ(diagnosis.accepted.front().label(), "coulomb@mLA");
     EXPECT_EQ(diagnosis.ladder.back().name, "- viscous@mLA");

@@ -10,8 +10,7 @@ namespace plumbline::validation {
 namespace {
 
 Diagnosis diagnosed(const std::vector<std::string>& hidden) {
-  return diagnose(bench(), effects::Catalogue::all(), bench_twins(hidden), {},
-                  [](const std::string& /*what*/, double /*fraction*/) {});
+  return diagnose(bench(), effects::Catalogue::all(), bench_twins(hidden), {}, silent);
 }
 
 TEST(Diagnose, SaysNothingIsMissingOnTheModelsOwnData) {

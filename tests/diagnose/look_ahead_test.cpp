@@ -18,8 +18,6 @@ using testing::Not;
 using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
-void silent(const std::string& /*what*/, double /*fraction*/) {}
-
 TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   const model::Model bare = bench();
   const Data data = bench_twins({"command_delay@mLS:delay=0.0014", "quadratic@mLS:drag=1.7e-5"}).thinned(8);

@@ -12,24 +12,6 @@
 namespace plumbline::validation {
 namespace {
 
-/// The bench with its own numbers open and fitted.
-Stage with_fitted_numbers(const Data& data) {
-  Stage stage = with_open_numbers(as_given(bench(), data), 0, 3.0, data);
-  PredictorPool pool(stage.model, data);
-  stage.estimate =
-      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), {}, {12, 1e-4});
-  return stage;
-}
-
-const Refit& refit_of(const std::string& label, const Tried& tried) {
-  for (const Refit& refit : tried.refits) {
-    if (tried.candidates[static_cast<std::size_t>(refit.candidate)].label() == label) {
-      return refit;
-    }
-  }
-  throw std::invalid_argument("no refit of " + label);
-}
-
 double stiffness_in_deviations(const Refit& refit, const Data& data) {
   PredictorPool pool(refit.extended.model, data);
   Estimate at = refit.estimate;
@@ -44,15 +26,14 @@ double stiffness_in_deviations(const Refit& refit, const Data& data) {
 // of reach, and without the spring the error is large.
 TEST(Objection, AStiffnessThatTradesWithItsRestIsNotNothing) {
   const Data data = bench_twins({"spring@leg_shape:stiffness=0.58,rest=0.284"}).thinned(8);
-  const Stage stage = with_fitted_numbers(data);
-  const Tried tried = try_candidates(stage, some_laws({"spring"}), {}, data, {},
-                                     [](const std::string& /*what*/, double /*fraction*/) {});
-  const Refit& hidden = refit_of("spring@leg_shape", tried);
+  const Stage stage = fitted_anew(with_open_numbers(as_given(bench(), data), 0, 3.0, data), data);
+  const Tried tried = try_candidates(stage, some_laws({"spring"}), {}, data, {}, silent);
+  const Refit& hidden = first_of("spring@leg_shape", tried.refits, tried.candidates);
   ASSERT_GT(stage.estimate.predicted.scores.square(), 3.0 * hidden.square());
   ASSERT_LT(stiffness_in_deviations(hidden, data), 2.0);
   EXPECT_EQ(flaw(hidden, data, {}), "");
   // What is as good without it is still refused.
-  const Refit& elsewhere = refit_of("spring@shin", tried);
+  const Refit& elsewhere = first_of("spring@shin", tried.refits, tried.candidates);
   EXPECT_THAT(flaw(elsewhere, data, {}), testing::HasSubstr("stiffness cannot be told from no effect"));
 }
 

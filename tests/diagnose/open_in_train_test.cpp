@@ -28,8 +28,7 @@ TEST(OpenInTrain, TheHeldOutMotionGivesTheValue) {
   std::vector<Trial> trials;
   trials.push_back(recorded(bare, bare, "steps", 0.05));
   trials.push_back(recorded(robot, bare, "multisine", 1.0));
-  const Diagnosis found = diagnose(bare, some_laws({"quadratic"}), Data(std::move(trials), {}), {},
-                                   [](const std::string& /*what*/, double /*fraction*/) {});
+  const Diagnosis found = diagnose(bare, some_laws({"quadratic"}), Data(std::move(trials), {}), {}, silent);
   ASSERT_EQ(found.accepted.size(), 1U);
   const Finding& finding = found.accepted.front();
   EXPECT_TRUE(finding.open_in_train);

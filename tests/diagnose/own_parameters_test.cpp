@@ -45,8 +45,7 @@ Data twins(const model::Model& bare, const std::vector<std::string>& hidden) {
 Diagnosis diagnosed(const std::vector<std::string>& hidden) {
   const model::Model bare = pendulum();
   const Data data = twins(bare, hidden);
-  return diagnose(bare, effects::Catalogue::all(), data, {},
-                  [](const std::string& /*what*/, double /*fraction*/) {});
+  return diagnose(bare, effects::Catalogue::all(), data, {}, silent);
 }
 
 TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {

@@ -7,8 +7,6 @@
 namespace plumbline::validation {
 namespace {
 
-void silent(const std::string& /*what*/, double /*fraction*/) {}
-
 // A short refit of the cable ends far above the floor, where a backlash could still compete.
 TEST(Refit, OfTheOthersIsNotNeededOnceTheBestIsAtTheFloor) {
   const Data data = bench_twins({"cable_stretch@leg_angle:stiffness=3.5,damping=0.0889"}).thinned(24);
@@ -22,15 +20,6 @@ TEST(Refit, OfTheOthersIsNotNeededOnceTheBestIsAtTheFloor) {
   EXPECT_LT(best.estimate.scores.train, 1.1);
 }
 
-const Hypothesis& best_start(const std::string& label, const Tried& tried) {
-  for (const Hypothesis& hypothesis : tried.hypotheses) {
-    if (tried.candidates[static_cast<std::size_t>(hypothesis.candidate)].label() == label) {
-      return hypothesis;
-    }
-  }
-  throw std::invalid_argument("no hypothesis of " + label);
-}
-
 // A hard stop comes below 1.2 floors where a spring on one side is hidden, but not to the floor: a law whose
 // promise is bad may still be the one that does, for a straight line says little of where it begins to act.
 TEST(Refit, OfTheOthersIsNeededWhereTheBestIsNearTheFloorOnly) {
@@ -39,9 +28,10 @@ TEST(Refit, OfTheOthersIsNeededWhereTheBestIsNearTheFloorOnly) {
                         .thinned(8);
   const Tried tried = try_candidates(as_given(bench(), data), some_laws({"hard_stop", "unilateral_spring"}),
                                      {}, data, {}, silent);
-  std::vector<Hypothesis> hypotheses{best_start("hard_stop@leg_shape", tried),
-                                     best_start("hard_stop@shin", tried),
-                                     best_start("unilateral_spring@leg_shape", tried)};
+  std::vector<Hypothesis> hypotheses;
+  for (const char* label : {"hard_stop@leg_shape", "hard_stop@shin", "unilateral_spring@leg_shape"}) {
+    hypotheses.push_back(first_of(label, tried.hypotheses, tried.candidates));
+  }
   hypotheses.back().promised_train = hypotheses.back().promised_held_out = 100.0;
   const std::vector<Refit> refits = refit(tried.stage, tried.candidates, hypotheses, data, {}, silent);
   ASSERT_EQ(refits.size(), 3U);

@@ -28,8 +28,6 @@ class Resume : public testing::Test {
     data.kept = std::make_shared<KeptResults>(folder.path("results.txt"), "inputs");
   }
 
-  static void silent(const std::string& /*what*/, double /*fraction*/) {}
-
   test::TemporaryFolder folder;
   Data data;
 };

@@ -98,11 +98,8 @@ void print_verdict(const Diagnosis& diagnosis) {
     print_rivals("On this model it is the same force as", finding, true);
     print_rivals("These data cannot tell it from", finding, false);
   }
-  for (const std::string& more :
-       {validation::open_values_sentence(diagnosis), validation::part_sentence(diagnosis)}) {
-    if (!more.empty()) {
-      fmt::print("{}\n", more);
-    }
+  for (const std::string& remark : validation::remarks(diagnosis)) {
+    fmt::print("{}\n", remark);
   }
   if (diagnosis.accepted.empty() || last.foretold() <= 0.0) {
     return;

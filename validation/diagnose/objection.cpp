@@ -66,14 +66,11 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
   constexpr int kIterations = 16;
   std::vector<FreeParameter> others = refit.extended.parameters;
   Eigen::VectorXd theta = refit.estimate.predicted.theta;
-  const auto p = static_cast<Eigen::Index>(parameter);
-  theta[p] = value;
+  theta[static_cast<Eigen::Index>(parameter)] = value;
   const model::Model held = with_values(refit.extended.model, others, theta);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
-  Eigen::VectorXd start(theta.size() - 1);
-  start << theta.head(p), theta.tail(start.size() - p);
   PredictorPool pool(held, data);
-  return gauss_newton(pool, others, start, refit.estimate.x0, {kIterations, 2e-3, false})
+  return gauss_newton(pool, others, values_of(held, others), refit.estimate.x0, {kIterations, 2e-3, false})
       .predicted.scores.square();
 }
 

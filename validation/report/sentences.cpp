@@ -111,8 +111,8 @@ std::string of_segments(const Diagnosis& diagnosis) {
   return last > first ? where + fmt::format(" What was found was followed over {:.2g} s.", last) : where;
 }
 
-}  // namespace
-
+/// On what part of the windows the model was diagnosed, how far it goes with what was found, and how many
+/// windows end early; empty where that is the whole.
 std::string part_sentence(const Diagnosis& diagnosis) {
   std::string said = of_segments(diagnosis);
   if (diagnosis.cut_windows > 0) {
@@ -125,6 +125,8 @@ std::string part_sentence(const Diagnosis& diagnosis) {
   return said;
 }
 
+/// Where the held-out error at the train trials' best values is much larger than the foretold one, which
+/// decides (validation/predict/foretell.h): a caution with both; else empty.
 std::string open_values_sentence(const Diagnosis& diagnosis) {
   constexpr double kMuch = 1.1;
   const Rung& last = diagnosis.ladder.back();
@@ -139,13 +141,25 @@ std::string open_values_sentence(const Diagnosis& diagnosis) {
       last.held_out(), last.foretold());
 }
 
+}  // namespace
+
+std::vector<std::string> remarks(const Diagnosis& diagnosis) {
+  std::vector<std::string> said;
+  for (const std::string& one : {open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
+    if (!one.empty()) {
+      said.push_back(one);
+    }
+  }
+  return said;
+}
+
 std::string summary(const Diagnosis& diagnosis) {
   if (diagnosis.ladder.empty()) {
     return "Nothing was finished.";
   }
   std::string said = whole_summary(diagnosis);
-  for (const std::string& more : {open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
-    said += more.empty() ? "" : " " + more;
+  for (const std::string& remark : remarks(diagnosis)) {
+    said += " " + remark;
   }
   return said;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "validation/diagnose/diagnose.h"
 
@@ -14,13 +15,9 @@ std::string verdict_sentence(const Diagnosis& diagnosis);
 /// "Missing: coulomb at drive. With it the held-out error falls from ... to ..."
 std::string finding_sentences(const Finding& finding, Verdict verdict);
 
-/// On what part of the windows the model was diagnosed, how far it goes with what was found, and how many
-/// windows end early; empty where that is the whole.
-std::string part_sentence(const Diagnosis& diagnosis);
-
-/// Where the held-out error at the train trials' best values is much larger than the foretold one, which
-/// decides (validation/predict/foretell.h): a caution with both; else empty. Needs a rung on the ladder.
-std::string open_values_sentence(const Diagnosis& diagnosis);
+/// What else is to be known of an answer, a few sentences each: what the train trials leave open of it, and
+/// on what part of the windows it was found. Needs a rung on the ladder.
+std::vector<std::string> remarks(const Diagnosis& diagnosis);
 
 /// The whole answer in a few sentences.
 std::string summary(const Diagnosis& diagnosis);
