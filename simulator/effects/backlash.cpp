@@ -48,13 +48,18 @@ Values Backlash::typical(const Scales& scales) const {
 }
 
 std::vector<Values> Backlash::starts(const Scales& scales) const {
-  const Values at_contact = typical(scales);
+  // Where a light motor drives a heavy load the contact's stiffness is far from what that rate makes it.
+  constexpr double kStifferRate = 7.0;
+  const Values soft = typical(scales);
+  const Values stiff = {soft[kGap], kStifferRate * kStifferRate * soft[kStiffness],
+                        kStifferRate * soft[kDamping]};
   std::vector<Values> grid;
-  // From play that the finest encoders just see to play as wide as the motion.
-  for (const double share : {3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3}) {
-    Values p = at_contact;
-    p[kGap] = share * guarded(scales).position;
-    grid.push_back(p);
+  for (Values p : {soft, stiff}) {
+    // From play that the finest encoders just see to play as wide as the motion.
+    for (const double share : {3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3}) {
+      p[kGap] = share * guarded(scales).position;
+      grid.push_back(p);
+    }
   }
   return grid;
 }

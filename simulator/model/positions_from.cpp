@@ -47,6 +47,10 @@ PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>&
 
 Eigen::VectorXd PositionsFrom::deviations() const { return solver_.pseudoInverse().rowwise().norm(); }
 
+Eigen::VectorXd PositionsFrom::deviations_unstretched() const {
+  return solver_.pseudoInverse().leftCols(offsets_.size()).rowwise().norm();
+}
+
 Eigen::MatrixXd PositionsFrom::solve(const Eigen::MatrixXd& weighted) const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(weighted.rows() + stretches_, weighted.cols());
   right.topRows(weighted.rows()) = weighted;

@@ -29,8 +29,11 @@ class PositionsFrom {
   /// False when the channels (and stretches of zero) leave some combination of coordinates open.
   bool determined() const { return solver_.rank() == positions_; }
 
-  /// One standard deviation of each of z as the channels' deviations leave it; what none sees: 0.
+  /// One standard deviation of each of z as the channels' deviations leave it, wide where a stretch is seen
+  /// by none; what none sees: 0.
   Eigen::VectorXd deviations() const;
+  /// The same where stretches that no channel sees are zero.
+  Eigen::VectorXd deviations_unstretched() const;
 
   /// z, positions x samples, from values, channels x samples.
   Eigen::MatrixXd positions(const Eigen::MatrixXd& values) const;

@@ -74,5 +74,21 @@ TEST_F(Jumps, WherePlayClosesTheDerivativesAgreeWithDifferences) {
   agree_with_differences("backlash@shoulder:gap=0.02,stiffness=300,damping=4", {0, 190, 160, {}}, 0.1);
 }
 
+// The hopper's carriage is seen by no sensor: with play in its ratio nothing says where in the play it is.
+TEST(HiddenPlay, BeginsWhereTheMotorHasItIfItWereRigid) {
+  const model::Model rigid = test::hopper();
+  const Trial trial = test::hopper_trial(rigid, "bounce");
+  model::Model played = rigid;
+  played.effects.push_back(
+      parse_effect("backlash@carriage:gap=0.004,stiffness=17,damping=0.03", played, model::known_effects()));
+  const Window window{0, 0, 100, {}};
+  constexpr int kCarriage = 1;
+  Predictor without(rigid, trial, {});
+  Predictor with(played, trial, {});
+  constexpr double kRatio = 50.0;  // rad/m
+  const double start = without.initial_state(window)[kCarriage];
+  EXPECT_NEAR(with.initial_state(window)[kCarriage], start, 0.004 / kRatio) << "m, by no more than the play";
+}
+
 }  // namespace
 }  // namespace plumbline::validation

@@ -55,7 +55,8 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
-  begin_inside(plant_, command.data(), from_channels_.deviations(), trial_.period, x);
+  // A stretch that no sensor sees begins where it is put, not as far inside as it might be.
+  begin_inside(plant_, command.data(), from_channels_.deviations_unstretched(), trial_.period, x);
   plant_.settle(command.data(), x.data());
   return x;
 }
