@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/diagnose/bench.h"
+#include "tests/predict/hopper.h"
 #include "validation/diagnose/candidates.h"
+#include "validation/diagnose/look_ahead.h"
 #include "validation/fit/free_parameters.h"
 #include "validation/predict/deviations.h"
 #include "validation/twin/twin.h"
@@ -34,6 +36,20 @@ TEST(Play, IsFittedFromFarAway) {
   EXPECT_NEAR(found.estimate.theta[0], 0.162, 0.002);
   EXPECT_NEAR(found.estimate.theta[1], 117.0, 4.0);
   EXPECT_NEAR(found.estimate.theta[2], 0.111, 0.005);
+}
+
+// No sensor sees the hopper's carriage, and beside the motor alone its contact is far stiffer than 60 Hz.
+TEST(Play, IsFoundWhereNoSensorSeesItsDrivenSide) {
+  const model::Model hopper = test::hopper();
+  model::Model truth = hopper;
+  truth.effects.push_back(parse_effect("backlash@carriage:gap=0.0043,stiffness=1750,damping=0.06", truth,
+                                       effects::Catalogue::all()));
+  const Data data =
+      Data({test::hopper_trial(truth, "bounce"), test::hopper_trial(truth, "steps")}, {}).thinned(4);
+  const Stage stage = as_given(hopper, data);
+  const Tried tried = try_candidates(stage, some_laws({"backlash"}), {}, data, {}, silent);
+  const Refit& found = first_of("backlash@carriage", tried.refits, tried.candidates);
+  EXPECT_LT(found.estimate.scores.train, 1.3) << "floors";
 }
 
 // What play leaves moves a bristle friction a little further at every step, to no end.

@@ -20,7 +20,7 @@ constexpr std::size_t kPairs = 6;        // that are returned
 /// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
 /// would be stiffer than anything that the samples could show, and cost as much as all others together.
 Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 80.0;  // in a sample of kUsual
+  constexpr double kLeast = 40.0;  // in a sample of kUsual
   constexpr double kUsual = 1e-3;  // s
   constexpr double kTimesTheStage = 3.0;
   constexpr double kEvaluationsOfStep = 3.0;

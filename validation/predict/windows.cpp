@@ -136,7 +136,11 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();
-  constexpr double kBurst = 0.2;  // share of the window: a short stretch may be much stiffer than the mean
+  // A short stretch may be much stiffer than the mean: a share of the window, of a very short one some
+  // samples.
+  constexpr double kBurst = 0.2;
+  constexpr double kLeastBurst = 20.0;
+  const double burst = std::max(kBurst * static_cast<double>(window.count), kLeastBurst);
   for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
     const bool in_pieces = is_near_ground(nodes_ - 1);
     for (std::size_t b = 0; b < breaks.size(); ++b) {
@@ -156,7 +160,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
     }
     add_sample(k + 1, integrator.state());
     if (static_cast<double>(integrator.summary().steps) >
-        options_.most_steps * (static_cast<double>(k) + kBurst * static_cast<double>(window.count))) {
+        options_.most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
   }
