@@ -33,8 +33,8 @@ struct PredictOptions {
   double window = 0.5;  ///< s
   double relative_tolerance = 1e-5;
   double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
-  /// Integrator steps for each sample, mean over what was run of a window and a fifth of it; a law that needs
-  /// more: std::runtime_error.
+  /// Integrator steps for each sample, mean over what was run of a window and a fifth of it (at least 20
+  /// samples); a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
   /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
