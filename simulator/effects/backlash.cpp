@@ -48,7 +48,7 @@ Values Backlash::typical(const Scales& scales) const {
 }
 
 std::vector<Values> Backlash::starts(const Scales& scales) const {
-  // Where a light motor drives a heavy load the contact's stiffness is far from what that rate makes it.
+  // Where a light motor drives a heavy load the contact may be far stiffer than kContactRate makes it.
   constexpr double kStifferRate = 7.0;
   const Values soft = typical(scales);
   const Values stiff = {soft[kGap], kStifferRate * kStifferRate * soft[kStiffness],

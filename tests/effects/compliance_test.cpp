@@ -91,7 +91,9 @@ TEST(Backlash, StartsInStiffContact) {
   std::set<long> rates;
   for (const auto& start : law->starts(scales)) {
     const double w = std::sqrt(value(*law, start, "stiffness") / scales.inertia);
-    rates.insert(std::lround(w / (2 * kPi)));
+    const double rate = w / (2 * kPi);
+    EXPECT_NEAR(rate, std::round(rate), 1e-9);
+    rates.insert(std::lround(rate));
     EXPECT_NEAR(value(*law, start, "damping") / (2 * scales.inertia * w), 0.3, 1e-12);
     EXPECT_GT(value(*law, start, "gap"), 0.0);
     EXPECT_LT(value(*law, start, "gap"), scales.position);
