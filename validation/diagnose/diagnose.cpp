@@ -53,11 +53,16 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
       diagnosis.ladder.back().length) {  // else they have been tried without
     drop_superfluous(all, options, progress, diagnosis);
   }
-  if (!diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all)) {
+  const bool is_answer =
+      !diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all);
+  if (is_answer) {
     settle_values(all, progress, diagnosis);
+    hold_values(all, progress, diagnosis);
   }
-  take_open_values(all, diagnosis);
-  set_values(diagnosis.final_stage, all, diagnosis.accepted);
+  if (take_open_values(all, diagnosis) || !is_answer) {
+    diagnosis.deviations.resize(0);
+    set_values(diagnosis.final_stage, all, diagnosis.accepted);
+  }
   conclude(all, options, diagnosis);
   // What could not be followed has not been explained.
   if (diagnosis.verdict == Verdict::nothing_missing && diagnosis.cut_windows > most_lost(diagnosis.windows)) {

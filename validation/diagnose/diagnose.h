@@ -106,7 +106,10 @@ struct Diagnosis {
   std::size_t windows = 0;      ///< on which the last errors are
   std::size_t cut_windows = 0;  ///< those of them that are not followed to their end (predict/reach.h)
   Stage final_stage;            ///< model with everything accepted, its parameters and estimate
-  std::size_t bare_rungs = 1;   ///< how many rungs come before anything was added
+  /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
+  /// where that was not done: nothing named, or above the floor.
+  Eigen::VectorXd deviations;
+  std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };
 

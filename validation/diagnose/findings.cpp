@@ -96,8 +96,12 @@ void set_values(const Stage& stage, const Data& data, std::vector<Finding>& find
     return;
   }
   PredictorPool pool(stage.model, data);
-  const Eigen::VectorXd deviations =
-      precision_of(pool, data.windows_of(Role::train), stage.parameters, stage.estimate).deviations;
+  set_values(stage,
+             precision_of(pool, data.windows_of(Role::train), stage.parameters, stage.estimate).deviations,
+             findings);
+}
+
+void set_values(const Stage& stage, const Eigen::VectorXd& deviations, std::vector<Finding>& findings) {
   const auto first = static_cast<int>(stage.model.effects.size() - findings.size());
   for (std::size_t f = 0; f < findings.size(); ++f) {
     findings[f].parameters.clear();

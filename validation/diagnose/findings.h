@@ -19,6 +19,8 @@ Finding finding_of(const Candidate& candidate);
 
 /// The values of the findings' effects, which are the last ones of the stage's model, with deviations.
 void set_values(const Stage& stage, const Data& data, std::vector<Finding>& findings);
+/// The same with deviations that are known.
+void set_values(const Stage& stage, const Eigen::VectorXd& deviations, std::vector<Finding>& findings);
 
 void set_errors(const Estimate& before, const Estimate& after, Finding& finding);
 

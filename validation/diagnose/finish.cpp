@@ -4,8 +4,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "validation/diagnose/findings.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
+#include "validation/predict/profile.h"
 
 namespace plumbline::validation {
 namespace {
@@ -100,7 +102,25 @@ void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnos
   diagnosis.ladder.back().stage = stage;
 }
 
-void take_open_values(const Data& all, Diagnosis& diagnosis) {
+void hold_values(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+  progress("how well the values are known", 0.97);
+  Stage& stage = diagnosis.final_stage;
+  const auto first = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size());
+  std::vector<int> named;
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    if (stage.parameters[p].id.effect >= first) {
+      named.push_back(static_cast<int>(p));
+    }
+  }
+  PredictorPool pool(stage.model, all);
+  const Profiled held = profile(pool, stage.parameters, stage.estimate, named);
+  stage.estimate = held.estimate;
+  diagnosis.ladder.back().stage = stage;
+  diagnosis.deviations = held.deviations;
+  set_values(stage, held.deviations, diagnosis.accepted);
+}
+
+bool take_open_values(const Data& all, Diagnosis& diagnosis) {
   Stage& stage = diagnosis.final_stage;
   const std::size_t first = stage.model.effects.size() - diagnosis.accepted.size();
   bool open = false;
@@ -109,7 +129,7 @@ void take_open_values(const Data& all, Diagnosis& diagnosis) {
     open = open || diagnosis.accepted[i].open_in_train;
   }
   if (!open) {
-    return;
+    return false;
   }
   const Prediction predicted = stage.estimate.predicted;
   stage.model = with_values(stage.model, stage.parameters, predicted.theta);
@@ -118,6 +138,7 @@ void take_open_values(const Data& all, Diagnosis& diagnosis) {
   stage.estimate.theta = predicted.theta;
   stage.estimate.predicted = predicted;
   diagnosis.ladder.back().stage = stage;
+  return true;
 }
 
 void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis) {

@@ -17,8 +17,13 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
 /// as soon as they can be told apart.
 void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
-/// Where a named law is nothing at the train trials' best values, those are taken that serve all trials.
-void take_open_values(const Data& all, Diagnosis& diagnosis);
+/// Deviations of the named effects' values held against the cost itself (predict/profile.h), and what is
+/// better than the last values and was met on that way. After settle_values.
+void hold_values(const Data& all, const Progress& progress, Diagnosis& diagnosis);
+
+/// Where a named law is nothing at the train trials' best values, those are taken that serve all trials, and
+/// its finding says so. True where there is one.
+bool take_open_values(const Data& all, Diagnosis& diagnosis);
 
 /// The verdict, and the share of the squared error above the floor that is left.
 void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis);

@@ -58,7 +58,7 @@ Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
       prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
   const Scatter scatter = cluster_scatter(reduced, known, constant_readings(data, windows, reduced, n));
   const double white = mean_square(data, windows, reduced);
-  Precision precision{Eigen::VectorXd(n), scatter.freedom, {}};
+  Precision precision{Eigen::VectorXd(n), scatter.freedom, {}, scatter.inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     const double least = white * scatter.inverse(p, p);

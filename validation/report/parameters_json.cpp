@@ -62,7 +62,8 @@ json matrix_json(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-json parameters_json(const model::Model& given, const Stage& stage, const Data& data) {
+json parameters_json(const model::Model& given, const Stage& stage, const Eigen::VectorXd& deviations,
+                     const Data& data) {
   const FitOptions options;
   json out{{"windows", 0},
            {"confidence", options.confidence},
@@ -77,6 +78,9 @@ json parameters_json(const model::Model& given, const Stage& stage, const Data& 
   numbers.before = stage.estimate.theta;
   numbers.after = stage.estimate.theta;
   numbers.precision = precision_of(pool, windows, stage.parameters, stage.estimate);
+  if (deviations.size() == numbers.after.size()) {
+    numbers.precision.deviations = deviations;
+  }
   const std::vector<FittedParameter> judged = judge(stage.parameters, numbers, options);
   for (std::size_t p = 0; p < judged.size(); ++p) {
     out["parameters"].push_back(

@@ -9,7 +9,9 @@ namespace plumbline::validation {
 
 /// {"windows", "confidence", "parameters": [...], "correlation": matrix or null}; docs/formats.md, "The data
 /// of a report". `given` is the model before anything was fitted or added to it. Without free parameters or
-/// train windows both lists are empty.
-nlohmann::json parameters_json(const model::Model& given, const Stage& stage, const Data& data);
+/// train windows both lists are empty. `deviations` are those of the stage's parameters; of another size:
+/// from the slopes at its estimate.
+nlohmann::json parameters_json(const model::Model& given, const Stage& stage,
+                               const Eigen::VectorXd& deviations, const Data& data);
 
 }  // namespace plumbline::validation

@@ -1,0 +1,78 @@
+// Deviations held against the cost: of values that slopes tell, and of a law in a curved valley.
+#include "validation/predict/profile.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/diagnose/bench.h"
+#include "validation/fit/free_parameters.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kInterval = 1.96;
+
+struct Fitted {
+  model::Model model;
+  std::vector<FreeParameter> parameters;
+  Profiled held;
+  Estimate before;
+};
+
+Fitted held(const std::string& effect, const Data& data) {
+  Fitted one;
+  one.model = bench();
+  one.model.effects.push_back(parse_effect(effect, one.model, effects::Catalogue::all()));
+  one.parameters = matching(free_parameters(one.model), {effect.substr(0, effect.find('@')) + "@*"});
+  PredictorPool pool(one.model, data);
+  one.before = gauss_newton(pool, one.parameters, values_of(one.model, one.parameters), {}, {12, 1e-6});
+  std::vector<int> all;
+  for (std::size_t p = 0; p < one.parameters.size(); ++p) {
+    all.push_back(static_cast<int>(p));
+  }
+  one.held = profile(pool, one.parameters, one.before, all);
+  return one;
+}
+
+/// In the order of the law's fitted parameters.
+void expect_inside(const std::vector<double>& truth, const Fitted& fitted) {
+  ASSERT_EQ(truth.size(), fitted.parameters.size());
+  for (std::size_t p = 0; p < truth.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    EXPECT_NEAR(fitted.held.estimate.theta[i], truth[p], kInterval * fitted.held.deviations[i])
+        << fitted.parameters[p].label;
+  }
+}
+
+// The cost is a parabola in the torque of a dry friction, to all that matters.
+TEST(Profile, LeavesWhatSlopesTell) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.005,smoothing_speed=0.03"}).thinned(6);
+  const Fitted found = held("coulomb@mLA:level=0.004,smoothing_speed=0.03", data);
+  EXPECT_TRUE(found.held.deviations.isApprox(found.held.precision.deviations, 0.02));
+  EXPECT_EQ(found.held.estimate.theta, found.before.theta);
+}
+
+const char* const kSpring =
+    "unilateral_spring@thigh:stiffness=0.6,preload=0.025,rest=0.29,side=-1,smoothing_length=0.005";
+
+// Nothing tells a smoothing length of nanoradians from none; rest and preload would seem as well known as if
+// it were known, too.
+TEST(Profile, LiftsAValueThatHasCollapsed) {
+  const Data data = bench_twins({kSpring}).thinned(8);
+  const Fitted found = held(
+      "unilateral_spring@thigh:stiffness=0.6,preload=0.03,rest=0.285,side=-1,smoothing_length=1e-8", data);
+  expect_inside({0.6, 0.025, 0.29, 0.005}, found);
+  EXPECT_LT(found.held.deviations[2], 0.02) << "rad: the rest is told all the same";
+}
+
+// A rest a little beside the true one is a minimum of its own.
+TEST(Profile, GoesOnFromWhatIsBetter) {
+  const Data data = bench_twins({kSpring}).thinned(8);
+  const Fitted found = held(
+      "unilateral_spring@thigh:stiffness=0.57,preload=0.05,rest=0.267,side=-1,smoothing_length=1e-8", data);
+  EXPECT_LT(found.held.estimate.cost, found.before.cost - 5.0);
+  expect_inside({0.6, 0.025, 0.29, 0.005}, found);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

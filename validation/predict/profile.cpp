@@ -1,0 +1,302 @@
+#include "validation/predict/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "validation/predict/box_least_squares.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kDeviations = 2.0;  // where the cost is looked at
+constexpr double kBetter = 0.5;      // of the cost: less does not move a value by a deviation
+
+/// The same windows without those of the held-out trials, which have no say.
+Data train_only(const Data& all) {
+  Data train = all;
+  train.windows.clear();
+  for (const int w : all.windows_of(Role::train)) {
+    train.windows.push_back(all.windows[static_cast<std::size_t>(w)]);
+  }
+  return train;
+}
+
+std::vector<Eigen::VectorXd> states_of_train(const Data& all, const std::vector<Eigen::VectorXd>& x0) {
+  std::vector<Eigen::VectorXd> some;
+  for (const int w : all.windows_of(Role::train)) {
+    some.push_back(x0[static_cast<std::size_t>(w)]);
+  }
+  return some;
+}
+
+/// A fit with one parameter held.
+struct Held {
+  double distance = 0.0;  // of the parameter, search units
+  double rise = 0.0;      // of the cost
+  Estimate estimate;
+};
+
+class Profile {
+ public:
+  Profile(PredictorPool& train, const std::vector<FreeParameter>& parameters, const Estimate& at,
+          std::vector<Eigen::VectorXd> x0, const Precision& precision, bool look_for_better)
+      : pool_(train),
+        parameters_(parameters),
+        at_(at),
+        x0_(std::move(x0)),
+        precision_(precision),
+        look_for_better_(look_for_better) {
+    units_ = search_units(parameters, at.theta);
+    room_ = room(parameters, at.theta, units_);
+  }
+
+  /// The deviation, in the parameter's unit; nothing where a better estimate was met.
+  std::optional<double> deviation(Eigen::Index p) {
+    if (is_collapsed(p)) {
+      return std::max(precision_.deviations[p], (largest_told(p) - at_.theta[p]) / kDeviations);
+    }
+    if (precision_.inverse(p, p) * kPriorPrecision > 0.5) {
+      return precision_.deviations[p];  // hardly seen
+    }
+    double largest = precision_.deviations[p];
+    for (const double side : {1.0, -1.0}) {
+      const std::optional<double> way = on_side(p, side);
+      if (!way) {
+        return {};
+      }
+      largest = std::max(largest, std::abs(value(p, side * *way) - at_.theta[p]) / kDeviations);
+    }
+    return largest;
+  }
+
+  /// Would a parameter that has collapsed do as well where slopes tell it? Then `better` is there.
+  bool lift(Eigen::Index p) {
+    if (!is_collapsed(p)) {
+      return false;
+    }
+    for (const double large : large_values(p)) {
+      const std::optional<Held> held = fit_held(p, distance_to(p, large), here());
+      if (held && held->rise < kBetter) {
+        better_ = held->estimate;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const Estimate& better() const { return better_; }
+  double search_deviation(Eigen::Index p) const {
+    return precision_.deviations[p] /
+           std::abs(search_slope(parameters_[static_cast<std::size_t>(p)].scale, at_.theta[p]) * units_[p]);
+  }
+
+ private:
+  static constexpr double kFactor = 2.0;
+  static constexpr double kAsForetold = 0.6;  // of the rise: the cost need not be a parabola to a tenth
+
+  /// Of logarithmic scale, and so small that no slope tells it to a factor of e: the others then depend on it
+  /// as if it were known.
+  bool is_collapsed(Eigen::Index p) const {
+    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
+    return parameter.scale == effects::Scale::logarithm && search_deviation(p) * units_[p] > 1.0 &&
+           !large_values(p).empty();
+  }
+
+  /// Several times what is typical of a parameter, and parts of that, as long as they are well above its
+  /// value.
+  std::vector<double> large_values(Eigen::Index p) const {
+    constexpr double kPart = 0.25;
+    constexpr int kParts = 7;
+    constexpr double kTimes = 16.0;
+    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
+    std::vector<double> values;
+    double large = std::min(kTimes * parameter.typical, parameter.upper);
+    for (int part = 0; part < kParts && large * kPart > at_.theta[p]; ++part, large *= kPart) {
+      values.push_back(large);
+    }
+    return values;
+  }
+
+  /// The largest value of one that has collapsed which the cost does not speak against.
+  double largest_told(Eigen::Index p) {
+    const double wanted = wanted_rise(p);
+    double above = 0.0;
+    for (const double large : large_values(p)) {
+      const std::optional<Held> held = fit_held(p, distance_to(p, large), here());
+      if (held && held->rise < wanted) {
+        return above > 0.0 ? std::sqrt(above * large) : large;
+      }
+      above = large;
+    }
+    return above;
+  }
+
+  /// The longest way that is gone, search units.
+  double reach_of(Eigen::Index p) const {
+    constexpr double kMost = 20.0;
+    constexpr double kMostTimes = 20.0;  // its value: known to less than an order is not known
+    const bool is_logarithm = parameters_[static_cast<std::size_t>(p)].scale == effects::Scale::logarithm;
+    return is_logarithm ? std::log(kMostTimes) / units_[p] : kMost;
+  }
+
+  double distance_to(Eigen::Index p, double to) const {
+    const effects::Scale scale = parameters_[static_cast<std::size_t>(p)].scale;
+    return (to_search(scale, to) - to_search(scale, at_.theta[p])) / units_[p];
+  }
+
+  /// Of the cost, at two deviations.
+  double wanted_rise(Eigen::Index p) const {
+    return std::pow(kDeviations * search_deviation(p), 2) / precision_.inverse(p, p);
+  }
+
+  Held here() const {
+    Held held{0.0, 0.0, at_};
+    held.estimate.x0 = x0_;
+    return held;
+  }
+
+  /// The parameter's value so many search units from here.
+  double value(Eigen::Index p, double distance) const {
+    return moved(at_.theta, Eigen::VectorXd::Unit(at_.theta.size(), p) * distance)[p];
+  }
+
+  /// How far two deviations are, search units.
+  std::optional<double> on_side(Eigen::Index p, double side) {
+    const double slopes = search_deviation(p);
+    const double wanted = wanted_rise(p);
+    const double most = std::min(reach_of(p), side > 0.0 ? room_.upper[p] : -room_.lower[p]);
+    Held last = here();
+    while (last.distance < most) {
+      const double next = last.distance == 0.0 ? kDeviations * slopes : kFactor * last.distance;
+      const std::optional<Held> held = fit_held(p, side * std::min(next, most), last);
+      if (!held) {
+        break;  // it cannot be integrated there: no value of these data
+      }
+      if (look_for_better_ && held->rise < -kBetter) {
+        better_ = held->estimate;
+        return {};
+      }
+      if (held->rise >= kAsForetold * wanted) {
+        return crossing(last, *held, wanted);
+      }
+      last = *held;
+    }
+    return last.distance;
+  }
+
+  /// Where between two fits the cost has risen by so much; the way there is taken as a parabola's.
+  static double crossing(const Held& one, const Held& other, double wanted) {
+    const double from = std::sqrt(std::max(one.rise, 0.0));
+    const double to = std::sqrt(other.rise);
+    const double share = (std::sqrt(wanted) - from) / std::max(to - from, 1e-300);
+    return one.distance + std::clamp(share, 0.0, 1.0) * (other.distance - one.distance);
+  }
+
+  std::optional<Held> fit_held(Eigen::Index p, double to, const Held& from) {
+    constexpr int kIterations = 8;
+    const double step = to - std::copysign(from.distance, to);
+    const Eigen::VectorXd others = precision_.inverse.col(p) / precision_.inverse(p, p) * step;
+    Eigen::VectorXd theta = moved(from.estimate.theta, others);
+    theta[p] = value(p, to);
+    std::vector<FreeParameter> held = parameters_;
+    FreeParameter& pinned = held[static_cast<std::size_t>(p)];
+    pinned.lower = pinned.upper = theta[p];
+    try {
+      const Estimate found =
+          gauss_newton(pool_, held, theta, from.estimate.x0, {kIterations, kBetter / 5.0 / at_.cost, false});
+      return Held{std::abs(to), found.cost - at_.cost, found};
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      return {};
+    }
+  }
+
+  Eigen::VectorXd moved(const Eigen::VectorXd& theta, const Eigen::VectorXd& step) const {
+    Eigen::VectorXd to = theta;
+    for (Eigen::Index p = 0; p < theta.size(); ++p) {
+      const FreeParameter& one = parameters_[static_cast<std::size_t>(p)];
+      const double value = from_search(one.scale, to_search(one.scale, theta[p]) + step[p] * units_[p]);
+      to[p] = std::isfinite(value) ? std::clamp(value, one.lower, one.upper) : theta[p];
+    }
+    return to;
+  }
+
+  PredictorPool& pool_;
+  const std::vector<FreeParameter>& parameters_;
+  const Estimate& at_;
+  std::vector<Eigen::VectorXd> x0_;
+  const Precision& precision_;
+  bool look_for_better_;
+  Eigen::VectorXd units_;
+  Room room_;
+  Estimate better_;
+};
+
+/// All values from those that were met with one of them held, on all windows.
+Estimate from_there(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Estimate& was,
+                    const Estimate& met) {
+  constexpr int kIterations = 12;
+  std::vector<Eigen::VectorXd> x0 = was.x0;
+  const std::vector<int> train = pool.data().windows_of(Role::train);
+  for (std::size_t i = 0; i < train.size(); ++i) {
+    x0[static_cast<std::size_t>(train[i])] = met.x0[i];
+  }
+  return gauss_newton(pool, parameters, met.theta, x0, {kIterations, kBetter / 5.0 / was.cost, false});
+}
+
+/// False where a better estimate was met.
+bool profile_all(Profile& profile, const std::vector<int>& which, Profiled& result) {
+  for (const int p : which) {
+    const double slopes = result.precision.deviations[p];
+    if (!(slopes > 0.0)) {
+      continue;
+    }
+    const std::optional<double> deviation = profile.deviation(p);
+    if (!deviation) {
+      return false;
+    }
+    result.deviations[p] = *deviation;
+  }
+  return true;
+}
+
+bool lift_any(Profile& profile, const std::vector<int>& which) {
+  return std::any_of(which.begin(), which.end(), [&](int p) { return profile.lift(p); });
+}
+
+}  // namespace
+
+Profiled profile(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Estimate& at,
+                 const std::vector<int>& which) {
+  constexpr int kBegins = 6;
+  const Data train = train_only(pool.data());
+  const std::vector<int> windows = pool.data().windows_of(Role::train);
+  PredictorPool some(pool.model(), train);
+  Profiled result;
+  result.estimate = at;
+  bool may_lift = true;
+  bool is_last = false;
+  for (int begin = 0;; ++begin) {
+    is_last = is_last || begin == kBegins;
+    result.precision = precision_of(pool, windows, parameters, result.estimate);
+    result.deviations = result.precision.deviations;
+    Profile one(some, parameters, result.estimate, states_of_train(pool.data(), result.estimate.x0),
+                result.precision, !is_last);
+    const bool lifted = !is_last && may_lift && lift_any(one, which);
+    if (!lifted && profile_all(one, which, result)) {
+      return result;
+    }
+    may_lift = !lifted;
+    const Estimate next = from_there(pool, parameters, result.estimate, one.better());
+    if (next.cost > result.estimate.cost + (lifted ? kBetter : -kBetter)) {
+      is_last = true;  // not on all windows at once
+    } else {
+      result.estimate = next;
+    }
+  }
+}
+
+}  // namespace plumbline::validation
