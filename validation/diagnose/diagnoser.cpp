@@ -186,12 +186,9 @@ void Diagnoser::replace_last(const Stage& stage, Diagnosis& diagnosis) const {
 
 bool Diagnoser::promises_much(const Stage& open, double least) const {
   constexpr double kMuch = 0.25;
-  const Eigen::VectorXd theta = values_of(open.model, open.parameters);
-  const Eigen::VectorXd units = search_units(open.parameters, theta);
-  const std::vector<int> windows = data_.all_windows();
-  PredictorPool pool(open.model, data_);
-  const std::vector<Reduced> reduced = reduce(pool, windows, open.parameters, theta, open.estimate.x0, units);
-  const LinearProblem problem = linear_problem(data_, windows, reduced, open.parameters, theta, units);
+  const LinearProblem problem =
+      linear_problem(open.model, open.parameters, values_of(open.model, open.parameters), data_,
+                     data_.all_windows(), open.estimate.x0);
   const double before = problem.train.sse / problem.train.samples;
   return before - promise_of(problem).train > std::max(kMuch * (before - 1.0), least * before);
 }

@@ -37,6 +37,15 @@ LinearProblem linear_problem(const Data& data, const std::vector<int>& windows,
           prior(parameters, units, theta), room(parameters, theta, units)};
 }
 
+LinearProblem linear_problem(const model::Model& model, const std::vector<FreeParameter>& parameters,
+                             const Eigen::VectorXd& theta, const Data& data, const std::vector<int>& windows,
+                             const std::vector<Eigen::VectorXd>& x0) {
+  PredictorPool pool(model, data);
+  const Eigen::VectorXd units = search_units(parameters, theta);
+  return linear_problem(data, windows, reduce(pool, windows, parameters, theta, x0, units), parameters, theta,
+                        units);
+}
+
 Promise promise_of(const LinearProblem& problem, const std::vector<Eigen::Index>& chosen) {
   const Prior& known = problem.known;
   const Room& bounds = problem.bounds;

@@ -25,6 +25,11 @@ LinearProblem linear_problem(const Data& data, const std::vector<int>& windows,
                              const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
                              const Eigen::VectorXd& units);
 
+/// The same, reduced here: the windows from x0 with the model's parameters at theta.
+LinearProblem linear_problem(const model::Model& model, const std::vector<FreeParameter>& parameters,
+                             const Eigen::VectorXd& theta, const Data& data, const std::vector<int>& windows,
+                             const std::vector<Eigen::VectorXd>& x0);
+
 /// The best step of the chosen unknowns within their bounds; the others stay where they are.
 Promise promise_of(const LinearProblem& problem, const std::vector<Eigen::Index>& chosen);
 

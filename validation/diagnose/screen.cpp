@@ -58,13 +58,12 @@ struct Part {
 /// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
 Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
                    const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
-  PredictorPool pool(extended.model, data);
-  const Eigen::VectorXd units = search_units(extended.parameters, extended.theta);
-  const std::vector<Reduced> reduced = reduce(pool, windows, extended.parameters, extended.theta, x0, units);
-  LinearProblem problem = linear_problem(data, windows, reduced, extended.parameters, extended.theta, units);
+  LinearProblem problem =
+      linear_problem(extended.model, extended.parameters, extended.theta, data, windows, x0);
   Room& bounds = problem.bounds;
   // A linearisation far from null is trusted for about a factor of two.
-  for (Eigen::Index p = units.size() - static_cast<Eigen::Index>(own); p < units.size(); ++p) {
+  const Eigen::Index count = extended.theta.size();
+  for (Eigen::Index p = count - static_cast<Eigen::Index>(own); p < count; ++p) {
     bounds.lower[p] = std::max(bounds.lower[p], -1.0);
     bounds.upper[p] = std::min(bounds.upper[p], 1.0);
   }
