@@ -6,12 +6,16 @@
 #include <stdexcept>
 
 #include "validation/predict/box_least_squares.h"
+#include "validation/predict/foretell.h"
 
 namespace plumbline::validation {
 namespace {
 
 constexpr double kDeviations = 2.0;  // where the cost is looked at
 constexpr double kBetter = 0.5;      // of the cost: less does not move a value by a deviation
+
+/// Relative change of such a cost at which a fit stops: well below what counts.
+double tolerance_of(double cost) { return kBetter / 5.0 / cost; }
 
 /// The same windows without those of the held-out trials, which have no say.
 Data train_only(const Data& all) {
@@ -159,7 +163,7 @@ class Profile {
 
   /// The parameter's value so many search units from here.
   double value(Eigen::Index p, double distance) const {
-    return moved(at_.theta, Eigen::VectorXd::Unit(at_.theta.size(), p) * distance)[p];
+    return stepped(parameters_, at_.theta, units_, Eigen::VectorXd::Unit(at_.theta.size(), p) * distance)[p];
   }
 
   /// How far two deviations are, search units.
@@ -198,30 +202,20 @@ class Profile {
     constexpr int kIterations = 8;
     const double step = to - std::copysign(from.distance, to);
     const Eigen::VectorXd others = precision_.inverse.col(p) / precision_.inverse(p, p) * step;
-    Eigen::VectorXd theta = moved(from.estimate.theta, others);
+    Eigen::VectorXd theta = stepped(parameters_, from.estimate.theta, units_, others);
     theta[p] = value(p, to);
     std::vector<FreeParameter> held = parameters_;
     FreeParameter& pinned = held[static_cast<std::size_t>(p)];
     pinned.lower = pinned.upper = theta[p];
     try {
       const Estimate found =
-          gauss_newton(pool_, held, theta, from.estimate.x0, {kIterations, kBetter / 5.0 / at_.cost, false});
+          gauss_newton(pool_, held, theta, from.estimate.x0, {kIterations, tolerance_of(at_.cost), false});
       return Held{std::abs(to), found.cost - at_.cost, found};
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
       return {};
     }
-  }
-
-  Eigen::VectorXd moved(const Eigen::VectorXd& theta, const Eigen::VectorXd& step) const {
-    Eigen::VectorXd to = theta;
-    for (Eigen::Index p = 0; p < theta.size(); ++p) {
-      const FreeParameter& one = parameters_[static_cast<std::size_t>(p)];
-      const double value = from_search(one.scale, to_search(one.scale, theta[p]) + step[p] * units_[p]);
-      to[p] = std::isfinite(value) ? std::clamp(value, one.lower, one.upper) : theta[p];
-    }
-    return to;
   }
 
   PredictorPool& pool_;
@@ -235,23 +229,29 @@ class Profile {
   Estimate better_;
 };
 
-/// All values from those that were met with one of them held, on all windows.
-Estimate from_there(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Estimate& was,
-                    const Estimate& met) {
+/// All values from those that were met with one of them held, on all windows; nothing where the held-out
+/// ones cannot be integrated from there.
+std::optional<Estimate> from_there(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                   const Estimate& was, const Estimate& met) {
   constexpr int kIterations = 12;
   std::vector<Eigen::VectorXd> x0 = was.x0;
   const std::vector<int> train = pool.data().windows_of(Role::train);
   for (std::size_t i = 0; i < train.size(); ++i) {
     x0[static_cast<std::size_t>(train[i])] = met.x0[i];
   }
-  return gauss_newton(pool, parameters, met.theta, x0, {kIterations, kBetter / 5.0 / was.cost, false});
+  try {
+    return gauss_newton(pool, parameters, met.theta, x0, {kIterations, tolerance_of(was.cost), false});
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return {};
+  }
 }
 
 /// False where a better estimate was met.
 bool profile_all(Profile& profile, const std::vector<int>& which, Profiled& result) {
   for (const int p : which) {
-    const double slopes = result.precision.deviations[p];
-    if (!(slopes > 0.0)) {
+    if (!(result.precision.deviations[p] > 0.0)) {
       continue;
     }
     const std::optional<double> deviation = profile.deviation(p);
@@ -290,11 +290,12 @@ Profiled profile(PredictorPool& pool, const std::vector<FreeParameter>& paramete
       return result;
     }
     may_lift = !lifted;
-    const Estimate next = from_there(pool, parameters, result.estimate, one.better());
-    if (next.cost > result.estimate.cost + (lifted ? kBetter : -kBetter)) {
-      is_last = true;  // not on all windows at once
+    const std::optional<Estimate> next = from_there(pool, parameters, result.estimate, one.better());
+    const double most = result.estimate.cost + (lifted ? kBetter : -kBetter);
+    if (next && next->cost <= most) {
+      result.estimate = *next;
     } else {
-      result.estimate = next;
+      is_last = true;  // not on all windows at once
     }
   }
 }
