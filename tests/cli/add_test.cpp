@@ -74,6 +74,7 @@ TEST_F(Add, ThenFitFindsWhatWasHidden) {
   EXPECT_LT(fit["after"]["held_out"].get<double>(), 1.2);
   EXPECT_GT(fit["before"]["held_out"].get<double>(), 20.0);
   EXPECT_THAT(outcome.out, HasSubstr("The data tell every one of these parameters."));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("More is missing than values")));
   // The overlay is the fitted model: value, uncertainty, source.
   const json values = effect_of("fitted.yaml")["values"];
   EXPECT_DOUBLE_EQ(values["level"]["value"].get<double>(), level["after"].get<double>());
@@ -81,6 +82,11 @@ TEST_F(Add, ThenFitFindsWhatWasHidden) {
                    level["standard_deviation"].get<double>());
   EXPECT_EQ(values["level"]["source"], "fit on chirp, steps");
   EXPECT_EQ(values["smoothing_speed"]["value"], 0.5);
+}
+
+TEST_F(Add, FitSaysWhenMoreIsMissing) {
+  const Outcome outcome = succeed({"fit", "trials/chirp", "--free", "viscous@drive:*", "--window", "0.25"});
+  EXPECT_THAT(outcome.out, HasSubstr("More is missing than values"));
 }
 
 TEST_F(Add, FitSaysWhatTheDataCannotTell) {

@@ -25,13 +25,18 @@ FreeParameter parameter(const std::string& label, effects::Scale scale = effects
   return made;
 }
 
-FitNumbers numbers(double after, double deviation, int windows) {
+/// `side` is the deviation where the value is searched.
+FitNumbers numbers(double after, double deviation, int windows, double side) {
+  const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
   FitNumbers made;
   made.before = Eigen::VectorXd::Zero(1);
-  made.after = Eigen::VectorXd::Constant(1, after);
-  made.precision = {Eigen::VectorXd::Constant(1, deviation), Eigen::VectorXd::Constant(1, windows - 1.0),
-                    Eigen::MatrixXd::Ones(1, 1)};
+  made.after = one(after);
+  made.precision = {one(deviation), one(side), one(side), one(windows - 1.0), Eigen::MatrixXd::Ones(1, 1)};
   return made;
+}
+
+FitNumbers numbers(double after, double deviation, int windows) {
+  return numbers(after, deviation, windows, deviation);
 }
 
 std::vector<std::string> kinds(const FittedParameter& fitted) {
@@ -60,7 +65,7 @@ TEST(Judge, LinearIntervalIsSymmetric) {
 
 TEST(Judge, IntervalAlongALogarithmStaysPositive) {
   const FittedParameter fitted =
-      judge({parameter("a", effects::Scale::logarithm, 1e-9)}, numbers(2.0, 1.6, 11), {}).front();
+      judge({parameter("a", effects::Scale::logarithm, 1e-9)}, numbers(2.0, 1.6, 11, 0.8), {}).front();
   EXPECT_NEAR(fitted.lower, 2.0 * std::exp(-0.8 * 2.228), 1e-3);
   EXPECT_NEAR(fitted.upper, 2.0 * std::exp(0.8 * 2.228), 1e-2);
 }
@@ -68,7 +73,7 @@ TEST(Judge, IntervalAlongALogarithmStaysPositive) {
 TEST(Judge, IntervalOfAStiffnessReachesToRigidWhenItCannotBeToldFromIt) {
   // 1/k = 0.01 with deviation 50/100^2 = 0.005 on the reciprocal: 0.01 - 2.228 * 0.005 < 0.
   const FittedParameter fitted =
-      judge({parameter("a", effects::Scale::reciprocal, 1e-9)}, numbers(100.0, 50.0, 11), {}).front();
+      judge({parameter("a", effects::Scale::reciprocal, 1e-9)}, numbers(100.0, 50.0, 11, 0.005), {}).front();
   EXPECT_NEAR(fitted.lower, 1.0 / (0.01 + 2.228 * 0.005), 1e-2);
   EXPECT_TRUE(std::isinf(fitted.upper));
 }
@@ -77,6 +82,18 @@ TEST(Judge, IntervalStopsAtTheBounds) {
   const FittedParameter fitted =
       judge({parameter("a", effects::Scale::linear, 0.0)}, numbers(0.1, 0.2, 11), {}).front();
   EXPECT_EQ(fitted.lower, 0.0);
+}
+
+TEST(Judge, IntervalFollowsUnlikeSides) {
+  FitNumbers unlike = numbers(2.0, 1.0, 11, 0.5);
+  unlike.precision.above[0] = 0.1;
+  const FreeParameter along = parameter("a", effects::Scale::logarithm, 1e-9);
+  const FittedParameter fitted = judge({along}, unlike, {}).front();
+  EXPECT_NEAR(fitted.lower, 2.0 * std::exp(-0.5 * 2.228), 1e-3);
+  EXPECT_NEAR(fitted.upper, 2.0 * std::exp(0.1 * 2.228), 1e-3);
+  unlike.precision.above[0] = kInfinity;
+  EXPECT_TRUE(std::isinf(judge({along}, unlike, {}).front().upper));
+  EXPECT_EQ(judge({parameter("a", effects::Scale::linear, 0.0, 5.0)}, unlike, {}).front().upper, 5.0);
 }
 
 TEST(Judge, DoubtsAValueKnownToMoreThanHalfOfItself) {
@@ -102,7 +119,8 @@ TEST(Judge, DoubtsParametersThatMoveTogether) {
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(3, 3);
   correlation(0, 2) = correlation(2, 0) = -0.99;
   correlation(0, 1) = correlation(1, 0) = 0.5;
-  two.precision = {Eigen::VectorXd::Constant(3, 0.1), Eigen::VectorXd::Constant(3, 27.0), correlation};
+  const Eigen::VectorXd tenth = Eigen::VectorXd::Constant(3, 0.1);
+  two.precision = {tenth, tenth, tenth, Eigen::VectorXd::Constant(3, 27.0), correlation};
   const auto fitted = judge({parameter("a"), parameter("b"), parameter("c")}, two, {});
   EXPECT_EQ(fitted[0].partner, "c");
   EXPECT_EQ(fitted[0].correlation, -0.99);

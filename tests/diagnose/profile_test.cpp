@@ -1,10 +1,11 @@
 // Deviations held against the cost: of values that slopes tell, and of a law in a curved valley.
 #include "validation/predict/profile.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/diagnose/bench.h"
-#include "validation/fit/free_parameters.h"
+#include "validation/fit/fit.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
@@ -39,7 +40,7 @@ void expect_inside(const std::vector<double>& truth, const Fitted& fitted) {
   ASSERT_EQ(truth.size(), fitted.parameters.size());
   for (std::size_t p = 0; p < truth.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);
-    EXPECT_NEAR(fitted.held.estimate.theta[i], truth[p], kInterval * fitted.held.deviations[i])
+    EXPECT_NEAR(fitted.held.estimate.theta[i], truth[p], kInterval * fitted.held.held.deviations[i])
         << fitted.parameters[p].label;
   }
 }
@@ -48,7 +49,7 @@ void expect_inside(const std::vector<double>& truth, const Fitted& fitted) {
 TEST(Profile, LeavesWhatSlopesTell) {
   const Data data = bench_twins({"coulomb@mLA:level=0.005,smoothing_speed=0.03"}).thinned(6);
   const Fitted found = held("coulomb@mLA:level=0.004,smoothing_speed=0.03", data);
-  EXPECT_TRUE(found.held.deviations.isApprox(found.held.precision.deviations, 0.02));
+  EXPECT_TRUE(found.held.held.deviations.isApprox(found.held.slopes.deviations, 0.02));
   EXPECT_EQ(found.held.estimate.theta, found.before.theta);
 }
 
@@ -62,7 +63,7 @@ TEST(Profile, LiftsAValueThatHasCollapsed) {
   const Fitted found = held(
       "unilateral_spring@thigh:stiffness=0.6,preload=0.03,rest=0.285,side=-1,smoothing_length=1e-8", data);
   expect_inside({0.6, 0.025, 0.29, 0.005}, found);
-  EXPECT_LT(found.held.deviations[2], 0.02) << "rad: the rest is told all the same";
+  EXPECT_LT(found.held.held.deviations[2], 0.02) << "rad: the rest is told all the same";
 }
 
 // A rest a little beside the true one is a minimum of its own.
@@ -73,6 +74,35 @@ TEST(Profile, GoesOnFromWhatIsBetter) {
   EXPECT_LT(found.held.estimate.cost, found.before.cost - 5.0);
   expect_inside({0.6, 0.025, 0.29, 0.005}, found);
 }
+
+struct Start {
+  double rest, smoothing_length;
+};
+
+class FitOfARest : public testing::TestWithParam<Start> {};
+
+// `plumbline fit` of a spring whose rest was taken for 23 mrad less than it is, and of one that was taken to
+// begin more sharply than the samples show.
+TEST_P(FitOfARest, EndsAtTheTruthWithinItsIntervals) {
+  const Data data = bench_twins({kSpring}).thinned(40);
+  model::Model model = bench();
+  const std::string start =
+      fmt::format("unilateral_spring@thigh:stiffness=0.57,preload=0.05,rest={},side=-1,smoothing_length={}",
+                  GetParam().rest, GetParam().smoothing_length);
+  model.effects.push_back(parse_effect(start, model, effects::Catalogue::all()));
+  const Fit found = fit(model, data, matching(free_parameters(model), {"unilateral_spring@*"}), {},
+                        [](const std::string&, double) {});
+  const std::vector<double> truth{0.6, 0.025, 0.29, 0.005};
+  ASSERT_EQ(found.parameters.size(), truth.size());
+  for (std::size_t p = 0; p < truth.size(); ++p) {
+    EXPECT_LE(found.parameters[p].lower, truth[p]) << found.parameters[p].label;
+    EXPECT_GE(found.parameters[p].upper, truth[p]) << found.parameters[p].label;
+  }
+  EXPECT_NEAR(found.parameters[2].after, 0.29, 0.002) << "rad";
+  EXPECT_LT(found.parameters[2].upper - found.parameters[2].lower, 0.015) << "rad";
+}
+
+INSTANTIATE_TEST_SUITE_P(Profile, FitOfARest, testing::Values(Start{0.267, 0.002}, Start{0.295, 1e-5}));
 
 }  // namespace
 }  // namespace plumbline::validation

@@ -117,8 +117,10 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   print_table({"parameter", "unit", "before", "after",
                fmt::format("{:g} % interval", 100.0 * options.fit.confidence), "strongest correlation"},
               rows);
-  fmt::print("\nIntervals from the scatter between {} windows ({} degrees of freedom).\n", fit.windows,
-             freedom_text(fit));
+  fmt::print(
+      "\nIntervals from the scatter between {} windows ({} degrees of freedom) and from how the error "
+      "rises.\n",
+      fit.windows, freedom_text(fit));
   if (!fit.converged) {
     fmt::print("Not settled after {} iterations: the values may still move (--iterations).\n",
                fit.iterations);
@@ -130,6 +132,12 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
     fmt::print("; held-out {:.3f} before, {:.3f} after\n", fit.before.held_out, fit.after.held_out);
   } else {
     fmt::print("; no held-out trial\n");
+  }
+  if (fit.after.train > options.fit.explained) {
+    fmt::print(
+        "More is missing than values (above {:g} floors): the intervals do not know of that. What it may be "
+        "says plumbline diagnose.\n",
+        options.fit.explained);
   }
   if (!options.out.empty()) {
     fmt::print("Model with the new values: {}\n", options.out);

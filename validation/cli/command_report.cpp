@@ -50,7 +50,7 @@ void diagnose(const Options& options, const Loaded& loaded, const Progress& prog
     throw validation::Stopped();  // half a page would look like a whole one
   }
   content.diagnosis = validation::to_json(diagnosis, {});  // the page has these forces by themselves
-  content.deviations = diagnosis.deviations;
+  content.precision = diagnosis.precision;
   content.ladder = validation::on_whole_windows(std::move(diagnosis.ladder), *loaded.data, progress);
   content.repetition.resampled = true;
   content.repetition.seed = options.diagnose.seed;

@@ -60,7 +60,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
     hold_values(all, progress, diagnosis);
   }
   if (take_open_values(all, diagnosis) || !is_answer) {
-    diagnosis.deviations.resize(0);
+    diagnosis.precision = {};
     set_values(diagnosis.final_stage, all, diagnosis.accepted);
   }
   conclude(all, options, diagnosis);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "validation/diagnose/screen.h"
+#include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 
@@ -108,7 +109,7 @@ struct Diagnosis {
   Stage final_stage;            ///< model with everything accepted, its parameters and estimate
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
-  Eigen::VectorXd deviations;
+  Precision precision;
   std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };

@@ -116,8 +116,8 @@ void hold_values(const Data& all, const Progress& progress, Diagnosis& diagnosis
   const Profiled held = profile(pool, stage.parameters, stage.estimate, named);
   stage.estimate = held.estimate;
   diagnosis.ladder.back().stage = stage;
-  diagnosis.deviations = held.deviations;
-  set_values(stage, held.deviations, diagnosis.accepted);
+  diagnosis.precision = held.held;
+  set_values(stage, held.held.deviations, diagnosis.accepted);
 }
 
 bool take_open_values(const Data& all, Diagnosis& diagnosis) {

@@ -4,10 +4,12 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
-#include "validation/predict/deviations.h"
+#include "validation/predict/profile.h"
 
 namespace plumbline::validation {
 namespace {
@@ -19,12 +21,10 @@ std::string percent(double share) {
 }
 
 /// Confidence interval along the search line, in the parameter's own unit and within its bounds.
-void set_interval(const FreeParameter& parameter, double quantile, FittedParameter& fitted) {
-  const double slope = std::abs(search_slope(parameter.scale, fitted.after));
-  const double reach = slope > 0.0 ? quantile * fitted.deviation / slope : 0.0;
+void set_interval(const FreeParameter& parameter, double below, double above, FittedParameter& fitted) {
   const double here = to_search(parameter.scale, fitted.after);
-  double low = here - reach;
-  double high = here + reach;
+  double low = here - below;
+  double high = here + above;
   if (parameter.scale == effects::Scale::reciprocal && here > 0.0) {
     low = std::max(low, 0.0);  // 1/0: the null value, infinite
   }
@@ -99,6 +99,25 @@ void add_doubts(const FreeParameter& parameter, bool seen, const FitOptions& opt
   }
 }
 
+/// The same with those of logarithmic scale held, which say how sharp or stiff a law is: free from the
+/// beginning they run away while its place is still wrong, and then nothing moves that any more.
+std::vector<FreeParameter> with_sharpness_held(const std::vector<FreeParameter>& parameters,
+                                               const Eigen::VectorXd& values) {
+  std::vector<FreeParameter> held = parameters;
+  for (std::size_t p = 0; p < held.size(); ++p) {
+    if (held[p].scale == effects::Scale::logarithm) {
+      held[p].lower = held[p].upper = values[static_cast<Eigen::Index>(p)];
+    }
+  }
+  return held;
+}
+
+std::vector<int> all_of(const std::vector<FreeParameter>& parameters) {
+  std::vector<int> all(parameters.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 }  // namespace
 
 bool FittedParameter::seen() const {
@@ -131,7 +150,8 @@ std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters,
     fitted.degrees_of_freedom = numbers.precision.freedom[p];
     const double quantile = student_quantile(options.confidence, fitted.degrees_of_freedom);
     if (seen && std::isfinite(quantile)) {
-      set_interval(parameters[i], quantile, fitted);
+      const Precision& known = numbers.precision;
+      set_interval(parameters[i], quantile * known.below[p], quantile * known.above[p], fitted);
     } else {
       fitted.lower = parameters[i].lower;
       fitted.upper = parameters[i].upper;
@@ -157,20 +177,24 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   progress("fitting " + std::to_string(parameters.size()) + " parameters", 0.2);
   FitNumbers numbers;
   numbers.before = values_of(model, parameters);
-  const Estimate near = gauss_newton(pool, parameters, numbers.before, given.x0, {options.iterations, 1e-3});
+  const Estimate near = gauss_newton(pool, with_sharpness_held(parameters, numbers.before), numbers.before,
+                                     given.x0, {options.iterations, 1e-3});
   progress("the last digits", 0.6);
-  const Estimate fitted =
+  const Estimate last =
       estimate(pool, parameters, near.theta, near.x0, {options.iterations, options.tolerance});
-  progress("how sure they are", 0.9);
-  numbers.after = fitted.theta;
-  numbers.precision = precision_of(pool, pool.data().windows_of(Role::train), parameters, fitted);
+  progress("how sure they are", 0.7);
+  const Estimate fitted =
+      gauss_newton(pool, parameters, last.theta, last.x0, {options.iterations, options.tolerance});
+  const Profiled known = profile(pool, parameters, fitted, all_of(parameters));
+  numbers.after = known.estimate.theta;
+  numbers.precision = known.held;
   Fit result;
   result.before = given.scores;
-  result.after = fitted.scores;
+  result.after = known.estimate.scores;
   result.parameters = judge(parameters, numbers, options);
   result.windows = static_cast<int>(data.windows_of(Role::train).size());
-  result.iterations = near.iterations + fitted.iterations;
-  result.converged = fitted.converged;
+  result.iterations = near.iterations + last.iterations;
+  result.converged = last.converged;
   return result;
 }
 

@@ -16,6 +16,7 @@ struct FitOptions {
   double confidence = 0.95;
   double uncertain = 0.5;  ///< standard deviation as a share of the value from which a value is doubted
   double tied = 0.98;      ///< correlation from which two parameters are called inseparable
+  double explained = 1.2;  ///< train error, floors, above which more is missing than values
 };
 
 /// Why a value should not be taken at its word.
@@ -27,7 +28,7 @@ struct Doubt {
 struct FittedParameter {
   std::string label, unit;
   double before = 0.0, after = 0.0;
-  double deviation = 0.0;           ///< one standard deviation, from the scatter between windows
+  double deviation = 0.0;           ///< one standard deviation, held against the cost (profile.h)
   double lower = 0.0, upper = 0.0;  ///< confidence interval
   std::string partner;              ///< the parameter with the strongest correlation; empty: none
   double correlation = 0.0;
@@ -45,10 +46,11 @@ struct Fit {
 };
 
 /// Fits the parameters on the train trials and predicts the held-out ones. The interval is
-///   after -+ t(confidence, degrees of freedom) * deviation,
+///   after - t * below to after + t * above, t = t(confidence, degrees of freedom),
 /// taken along the line on which the parameter is searched (its value, logarithm or reciprocal), so that it
-/// stays physical. Source of t: W. S. Gosset ("Student"), Biometrika 6 (1908) 1-25, by Boost.Math.
-/// Throws InputError when there is no train trial or a parameter cannot leave its null value.
+/// stays physical, with deviations to either side that are held against the cost (predict/profile.h). Source
+/// of t: W. S. Gosset ("Student"), Biometrika 6 (1908) 1-25, by Boost.Math. Throws InputError when there is
+/// no train trial or a parameter cannot leave its null value.
 Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> parameters,
         const FitOptions& options, const Progress& progress);
 

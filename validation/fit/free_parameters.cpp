@@ -96,7 +96,8 @@ void check_can_move(const model::Model& model, const std::vector<FreeParameter>&
 void set_typical(const model::Model& model, const Data& data, std::vector<FreeParameter>& parameters) {
   for (FreeParameter& parameter : parameters) {
     const double value = value_of(model, parameter);
-    if (std::isfinite(value) && value != 0.0) {
+    const bool is_size = parameter.scale != effects::Scale::logarithm;
+    if (is_size && std::isfinite(value) && value != 0.0) {
       parameter.typical = std::abs(value);
       continue;
     }

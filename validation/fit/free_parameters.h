@@ -21,7 +21,9 @@ std::vector<FreeParameter> matching(const std::vector<FreeParameter>& parameters
 /// number of states when it leaves them: a fit cannot start there.
 void check_can_move(const model::Model& model, const std::vector<FreeParameter>& parameters);
 
-/// Magnitudes that matter: the value itself, or for a value of zero what the motion of the train trials says.
+/// Magnitudes that matter: the value itself, or what the motion of the train trials says: for a value of
+/// zero, and of logarithmic scale, where the value says how sharp a law is, not what samples can show of
+/// that.
 void set_typical(const model::Model& model, const Data& data, std::vector<FreeParameter>& parameters);
 
 }  // namespace plumbline::validation

@@ -58,13 +58,15 @@ Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
       prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
   const Scatter scatter = cluster_scatter(reduced, known, constant_readings(data, windows, reduced, n));
   const double white = mean_square(data, windows, reduced);
-  Precision precision{Eigen::VectorXd(n), scatter.freedom, {}, scatter.inverse};
+  Precision precision{Eigen::VectorXd(n), Eigen::VectorXd(n), {}, scatter.freedom, {}, scatter.inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     const double least = white * scatter.inverse(p, p);
     const double search = std::sqrt(std::max(scatter.covariance(p, p), least)) * units[p];
     precision.deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
+    precision.below[p] = search;
   }
+  precision.above = precision.below;
   const Eigen::VectorXd scale = scatter.inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   precision.correlation = scale.asDiagonal() * scatter.inverse * scale.asDiagonal();
   return precision;

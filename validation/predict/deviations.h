@@ -9,10 +9,11 @@
 namespace plumbline::validation {
 
 struct Precision {
-  Eigen::VectorXd deviations;   ///< one standard deviation of each parameter
-  Eigen::VectorXd freedom;      ///< degrees of freedom behind each: windows that do not tell it do not count
-  Eigen::MatrixXd correlation;  ///< a zero on the diagonal: the data do not depend on the parameter
-  Eigen::MatrixXd inverse{};    ///< H^-1, search units
+  Eigen::VectorXd deviations;    ///< one standard deviation of each parameter
+  Eigen::VectorXd below, above;  ///< the same to either side, where it is searched (to_search)
+  Eigen::VectorXd freedom;       ///< degrees of freedom behind each: windows that do not tell it do not count
+  Eigen::MatrixXd correlation;   ///< a zero on the diagonal: the data do not depend on the parameter
+  Eigen::MatrixXd inverse{};     ///< H^-1, search units
 };
 
 /// From the scatter of the windows' scores (cluster_scatter.h), so that correlated residuals within a window

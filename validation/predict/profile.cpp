@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -35,6 +36,11 @@ std::vector<Eigen::VectorXd> states_of_train(const Data& all, const std::vector<
   return some;
 }
 
+/// Deviations of a parameter: in its own unit, and to either side where it is searched.
+struct Known {
+  double deviation = 0.0, below = 0.0, above = 0.0;
+};
+
 /// A fit with one parameter held.
 struct Held {
   double distance = 0.0;  // of the parameter, search units
@@ -56,23 +62,29 @@ class Profile {
     room_ = room(parameters, at.theta, units_);
   }
 
-  /// The deviation, in the parameter's unit; nothing where a better estimate was met.
-  std::optional<double> deviation(Eigen::Index p) {
+  /// Nothing where a better estimate was met.
+  std::optional<Known> known(Eigen::Index p) {
+    Known result{precision_.deviations[p], precision_.below[p], precision_.above[p]};
     if (is_collapsed(p)) {
-      return std::max(precision_.deviations[p], (largest_told(p) - at_.theta[p]) / kDeviations);
+      const double largest = largest_told(p);
+      result.deviation = std::max(result.deviation, (largest - at_.theta[p]) / kDeviations);
+      result.above = std::log(largest / at_.theta[p]) / kDeviations;
+      return result;
     }
     if (precision_.inverse(p, p) * kPriorPrecision > 0.5) {
-      return precision_.deviations[p];  // hardly seen
+      return result;  // hardly seen
     }
-    double largest = precision_.deviations[p];
     for (const double side : {1.0, -1.0}) {
-      const std::optional<double> way = on_side(p, side);
+      const std::optional<Way> way = on_side(p, side);
       if (!way) {
         return {};
       }
-      largest = std::max(largest, std::abs(value(p, side * *way) - at_.theta[p]) / kDeviations);
+      const double own = std::abs(value(p, side * way->distance) - at_.theta[p]);
+      result.deviation = std::max(result.deviation, own / kDeviations);
+      double& here = side > 0.0 ? result.above : result.below;
+      here = way->at_bound ? kInfinity : std::max(here, way->distance * units_[p] / kDeviations);
     }
-    return largest;
+    return result;
   }
 
   /// Would a parameter that has collapsed do as well where slopes tell it? Then `better` is there.
@@ -91,20 +103,25 @@ class Profile {
   }
 
   const Estimate& better() const { return better_; }
-  double search_deviation(Eigen::Index p) const {
-    return precision_.deviations[p] /
-           std::abs(search_slope(parameters_[static_cast<std::size_t>(p)].scale, at_.theta[p]) * units_[p]);
-  }
 
  private:
+  /// To where the cost has risen.
+  struct Way {
+    double distance = 0.0;  // search units
+    bool at_bound = false;  // it has not risen so far
+  };
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kFactor = 2.0;
   static constexpr double kAsForetold = 0.6;  // of the rise: the cost need not be a parabola to a tenth
+
+  double search_deviation(Eigen::Index p) const { return precision_.above[p] / units_[p]; }
 
   /// Of logarithmic scale, and so small that no slope tells it to a factor of e: the others then depend on it
   /// as if it were known.
   bool is_collapsed(Eigen::Index p) const {
     const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
-    return parameter.scale == effects::Scale::logarithm && search_deviation(p) * units_[p] > 1.0 &&
+    return parameter.scale == effects::Scale::logarithm && precision_.above[p] > 1.0 &&
            !large_values(p).empty();
   }
 
@@ -145,6 +162,16 @@ class Profile {
     return is_logarithm ? std::log(kMostTimes) / units_[p] : kMost;
   }
 
+  /// To the bound; infinite stiffness, 1/0, is taken as met at some times the value.
+  double room_to_bound(Eigen::Index p, double side) const {
+    constexpr double kRigid = 20.0;
+    const double all = side > 0.0 ? room_.upper[p] : -room_.lower[p];
+    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
+    const bool to_rigid =
+        parameter.scale == effects::Scale::reciprocal && side < 0.0 && !std::isfinite(parameter.upper);
+    return to_rigid ? all * (1.0 - 1.0 / kRigid) : all;
+  }
+
   double distance_to(Eigen::Index p, double to) const {
     const effects::Scale scale = parameters_[static_cast<std::size_t>(p)].scale;
     return (to_search(scale, to) - to_search(scale, at_.theta[p])) / units_[p];
@@ -166,11 +193,12 @@ class Profile {
     return stepped(parameters_, at_.theta, units_, Eigen::VectorXd::Unit(at_.theta.size(), p) * distance)[p];
   }
 
-  /// How far two deviations are, search units.
-  std::optional<double> on_side(Eigen::Index p, double side) {
+  /// How far two deviations are; nothing where a better estimate was met.
+  std::optional<Way> on_side(Eigen::Index p, double side) {
     const double slopes = search_deviation(p);
     const double wanted = wanted_rise(p);
-    const double most = std::min(reach_of(p), side > 0.0 ? room_.upper[p] : -room_.lower[p]);
+    const double bound = room_to_bound(p, side);
+    const double most = std::min(reach_of(p), bound);
     Held last = here();
     while (last.distance < most) {
       const double next = last.distance == 0.0 ? kDeviations * slopes : kFactor * last.distance;
@@ -183,11 +211,11 @@ class Profile {
         return {};
       }
       if (held->rise >= kAsForetold * wanted) {
-        return crossing(last, *held, wanted);
+        return Way{crossing(last, *held, wanted), false};
       }
       last = *held;
     }
-    return last.distance;
+    return Way{last.distance, last.distance >= bound};
   }
 
   /// Where between two fits the cost has risen by so much; the way there is taken as a parabola's.
@@ -251,14 +279,16 @@ std::optional<Estimate> from_there(PredictorPool& pool, const std::vector<FreePa
 /// False where a better estimate was met.
 bool profile_all(Profile& profile, const std::vector<int>& which, Profiled& result) {
   for (const int p : which) {
-    if (!(result.precision.deviations[p] > 0.0)) {
+    if (!(result.slopes.deviations[p] > 0.0)) {
       continue;
     }
-    const std::optional<double> deviation = profile.deviation(p);
-    if (!deviation) {
+    const std::optional<Known> known = profile.known(p);
+    if (!known) {
       return false;
     }
-    result.deviations[p] = *deviation;
+    result.held.deviations[p] = known->deviation;
+    result.held.below[p] = known->below;
+    result.held.above[p] = known->above;
   }
   return true;
 }
@@ -281,10 +311,10 @@ Profiled profile(PredictorPool& pool, const std::vector<FreeParameter>& paramete
   bool is_last = false;
   for (int begin = 0;; ++begin) {
     is_last = is_last || begin == kBegins;
-    result.precision = precision_of(pool, windows, parameters, result.estimate);
-    result.deviations = result.precision.deviations;
+    result.slopes = precision_of(pool, windows, parameters, result.estimate);
+    result.held = result.slopes;
     Profile one(some, parameters, result.estimate, states_of_train(pool.data(), result.estimate.x0),
-                result.precision, !is_last);
+                result.slopes, !is_last);
     const bool lifted = !is_last && may_lift && lift_any(one, which);
     if (!lifted && profile_all(one, which, result)) {
       return result;

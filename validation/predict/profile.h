@@ -9,18 +9,19 @@
 namespace plumbline::validation {
 
 struct Profiled {
-  Eigen::VectorXd deviations;  ///< of all parameters, in their own units
-  /// Where a lower cost was met on the way, from there the best values: `deviations` are those there.
+  /// Where a lower cost was met on the way, from there the best values.
   Estimate estimate;
-  Precision precision;  ///< from the slopes there
+  Precision slopes;  ///< from the slopes at the estimate
+  Precision held;    ///< the same with deviations, below and above held against the cost
 };
 
 /// The deviations of the parameters `which`, held against the cost itself (profile likelihood). A deviation s
 /// from the slopes foretells that the cost rises by 4 s^2 / H^-1_pp where the parameter is held two
 /// deviations away and all others and the initial states are fitted anew. Where it rises by less, on either
 /// side, the parameter is taken further, until it does or its bounds are met, and half of that way is the
-/// deviation: a law with a threshold lies in a curved valley. Deviations only grow, by at most twenty search
-/// units, or of a logarithmic scale to twenty times the value; what the data hardly see stays as it is.
+/// deviation to this side (infinite at a bound); the longer of both is the parameter's: a law with a
+/// threshold lies in a curved valley. Deviations only grow, by at most twenty search units, or of a
+/// logarithmic scale to twenty times the value; what the data hardly see stays as it is.
 /// Where the cost falls by more than one half there is a better estimate, from which it begins anew.
 /// A parameter of logarithmic scale that slopes do not tell to a factor of e (a smoothing length below what
 /// samples show) would hold the others as if it were known. Where it does as well, it is lifted to the

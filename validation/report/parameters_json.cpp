@@ -62,7 +62,7 @@ json matrix_json(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-json parameters_json(const model::Model& given, const Stage& stage, const Eigen::VectorXd& deviations,
+json parameters_json(const model::Model& given, const Stage& stage, const Precision& precision,
                      const Data& data) {
   const FitOptions options;
   json out{{"windows", 0},
@@ -73,13 +73,13 @@ json parameters_json(const model::Model& given, const Stage& stage, const Eigen:
   if (stage.parameters.empty() || windows.empty()) {
     return out;
   }
-  PredictorPool pool(stage.model, data);
   FitNumbers numbers;
   numbers.before = stage.estimate.theta;
   numbers.after = stage.estimate.theta;
-  numbers.precision = precision_of(pool, windows, stage.parameters, stage.estimate);
-  if (deviations.size() == numbers.after.size()) {
-    numbers.precision.deviations = deviations;
+  numbers.precision = precision;
+  if (precision.deviations.size() == 0) {
+    PredictorPool pool(stage.model, data);
+    numbers.precision = precision_of(pool, windows, stage.parameters, stage.estimate);
   }
   const std::vector<FittedParameter> judged = judge(stage.parameters, numbers, options);
   for (std::size_t p = 0; p < judged.size(); ++p) {

@@ -154,7 +154,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
     report["ladder"].push_back(scores_json(rung, data));
   }
   progress("how sure the parameters are", 0.3);
-  report["estimates"] = parameters_json(content.given, last, content.deviations, data);
+  report["estimates"] = parameters_json(content.given, last, content.precision, data);
   for (std::size_t d = 0; d < drawn.size(); ++d) {
     progress("the force that is not explained", 0.4 + 0.2 * static_cast<double>(d));
     report["drawn"].push_back(drawn_name(content, d == 0));

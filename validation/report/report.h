@@ -12,10 +12,10 @@
 namespace plumbline::validation {
 
 struct ReportContent {
-  model::Model given;          ///< before anything was added or fitted
-  std::vector<Rung> ladder;    ///< the first and the last are drawn: before and after
-  nlohmann::json diagnosis;    ///< as `diagnose --json` writes it; null: compared only
-  Eigen::VectorXd deviations;  ///< Diagnosis::deviations
+  model::Model given;        ///< before anything was added or fitted
+  std::vector<Rung> ladder;  ///< the first and the last are drawn: before and after
+  nlohmann::json diagnosis;  ///< as `diagnose --json` writes it; null: compared only
+  Precision precision;       ///< Diagnosis::precision
   Repetition repetition;
   DrawingOptions drawing{};
 };
