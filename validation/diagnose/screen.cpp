@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/diagnose/part.h"
 #include "validation/diagnose/promise.h"
 #include "validation/diagnose/tangents.h"
 #include "validation/predict/carried_states.h"
@@ -11,49 +12,6 @@
 
 namespace plumbline::validation {
 namespace {
-
-std::vector<int> every(std::size_t stride, const std::vector<int>& windows) {
-  std::vector<int> chosen;
-  for (std::size_t w = 0; w < windows.size(); w += stride) {
-    chosen.push_back(windows[w]);
-  }
-  return chosen;
-}
-
-/// Windows for the costly starts: enough to tell, spread over the trials. Of segments, which are many and
-/// short, fewer.
-std::vector<int> thinned(const Data& data) {
-  constexpr std::size_t kEnough = 16;
-  const std::size_t count = data.windows.size();
-  const std::size_t stride = data.has_segments() ? std::max<std::size_t>(2, count / kEnough) : 2;
-  return every(count > kEnough ? stride : 1, data.all_windows());
-}
-
-/// Squared error of the stage on some of the windows as a share of that on all: promises made on a part of
-/// the windows are brought to all of them by it.
-double share_of_error(const Stage& stage, const std::vector<int>& windows, const Data& data, Role role) {
-  const auto mean = [&](const std::vector<int>& some) {
-    double sum = 0.0;
-    double samples = 0.0;
-    for (const int w : some) {
-      if (data.role(static_cast<std::size_t>(w)) == role) {
-        const Eigen::VectorXd& square = stage.estimate.predicted.square[static_cast<std::size_t>(w)];
-        sum += square.sum();
-        samples += static_cast<double>(data.windows[static_cast<std::size_t>(w)].count * square.size());
-      }
-    }
-    return samples > 0.0 ? sum / samples : 0.0;
-  };
-  const double all = mean(data.windows_of(role));
-  const double part = mean(windows);
-  return all > 0.0 && part > 0.0 ? part / all : 1.0;
-}
-
-/// The windows of the costly starts, and what share of the stage's error is theirs.
-struct Part {
-  std::vector<int> windows;
-  double train_share, held_out_share;
-};
 
 /// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
 Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
@@ -119,11 +77,6 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
   hypothesis.step = promise.step;
   hypothesis.promised_train = promise.train / part.train_share;
   hypothesis.promised_held_out = promise.held_out / part.held_out_share;
-}
-
-Part part_of(const Stage& stage, const std::vector<int>& windows, const Data& data) {
-  return {windows, share_of_error(stage, windows, data, Role::train),
-          share_of_error(stage, windows, data, Role::held_out)};
 }
 
 void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
@@ -230,10 +183,10 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   }
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
-  const Part part = part_of(stage, thinned(data), data);
+  const Part part = enough_to_tell(stage, data);
   if (data.has_segments()) {
-    keep_promising(stage, candidates, data, part_of(stage, every(kFew, part.windows), data), progress,
-                   starts);
+    keep_promising(stage, candidates, data, part_of(stage, telling(stage, kFew, part.windows, data), data),
+                   progress, starts);
   }
   screen_starts(stage, candidates, data, part, progress, starts);
   found.insert(found.end(), starts.begin(), starts.end());
