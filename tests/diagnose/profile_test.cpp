@@ -90,8 +90,7 @@ TEST_P(FitOfARest, EndsAtTheTruthWithinItsIntervals) {
       fmt::format("unilateral_spring@thigh:stiffness=0.57,preload=0.05,rest={},side=-1,smoothing_length={}",
                   GetParam().rest, GetParam().smoothing_length);
   model.effects.push_back(parse_effect(start, model, effects::Catalogue::all()));
-  const Fit found = fit(model, data, matching(free_parameters(model), {"unilateral_spring@*"}), {},
-                        [](const std::string&, double) {});
+  const Fit found = fit(model, data, matching(free_parameters(model), {"unilateral_spring@*"}), {}, silent);
   const std::vector<double> truth{0.6, 0.025, 0.29, 0.005};
   ASSERT_EQ(found.parameters.size(), truth.size());
   for (std::size_t p = 0; p < truth.size(); ++p) {

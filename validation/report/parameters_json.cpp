@@ -77,7 +77,7 @@ json parameters_json(const model::Model& given, const Stage& stage, const Precis
   numbers.before = stage.estimate.theta;
   numbers.after = stage.estimate.theta;
   numbers.precision = precision;
-  if (precision.deviations.size() == 0) {
+  if (precision.deviations.size() != numbers.after.size()) {
     PredictorPool pool(stage.model, data);
     numbers.precision = precision_of(pool, windows, stage.parameters, stage.estimate);
   }

@@ -10,8 +10,8 @@ namespace plumbline::validation {
 
 /// {"windows", "confidence", "parameters": [...], "correlation": matrix or null}; docs/formats.md, "The data
 /// of a report". `given` is the model before anything was fitted or added to it. Without free parameters or
-/// train windows both lists are empty. `precision` is that of the stage's parameters; empty: from the slopes
-/// at its estimate.
+/// train windows both lists are empty. `precision` is that of the stage's parameters; of another size: from
+/// the slopes at its estimate.
 nlohmann::json parameters_json(const model::Model& given, const Stage& stage, const Precision& precision,
                                const Data& data);
 
