@@ -29,6 +29,7 @@ struct SampleMotion {
   const double* command_slope;  ///< d(command)/d(delay) of each motor, 1/s
   double period;                ///< s
   double hold = 0.0;            ///< s for which a command holds, where that is longer; 0: the period
+  bool jumped = false;          ///< a force jumped where it begins
 };
 
 /// A foot and the ground under it, in the world's axes.
@@ -202,6 +203,9 @@ class Plant {
     bool active = true;  // false at null values: costs nothing
     Line line;
   };
+  struct Reach {
+    double up = 0.0, down = 0.0;
+  };
   struct FootSlot {
     struct Normal {
       const contact::NormalLaw* law;
@@ -281,6 +285,8 @@ class Plant {
 
   effects::Motion motion(const ForceSlot& slot, const double* x) const;
   effects::Motion half_change(const ForceSlot& slot, const double* change) const;
+  static std::vector<bool> sides_of_jumps(const ForceSlot& slot, const effects::Motion& at, const double* p);
+  Reach reach_beside_jumps(const ForceSlot& slot, const effects::Motion& at, double most);
   const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
   const double* on_ground(int effect) const { return on_ground_[static_cast<std::size_t>(effect)].data(); }
   void deliver_torques(const double* x, const double* command, double* xdot);

@@ -61,6 +61,33 @@ void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eig
   A.middleRows(nz_, nz_) += slopes_;
 }
 
+// On which sides of the points where its force jumps a law is.
+std::vector<bool> Plant::sides_of_jumps(const ForceSlot& slot, const effects::Motion& at, const double* p) {
+  std::vector<double> g;
+  slot.law->switches(at, p, g);
+  g.resize(static_cast<std::size_t>(slot.law->jumps(p)));
+  std::vector<bool> sides;
+  for (const double one : g) {
+    sides.push_back(one > 0.0);
+  }
+  return sides;
+}
+
+// How far the place may move either way without a jump: where a stop has just been met or left, a difference
+// across its surface is no slope of what follows.
+Plant::Reach Plant::reach_beside_jumps(const ForceSlot& slot, const effects::Motion& at, double most) {
+  const double* p = values(slot.effect);
+  if (slot.law->jumps(p) == 0) {
+    return {most, most};
+  }
+  const std::vector<bool> here = sides_of_jumps(slot, at, p);
+  const auto free = [&](double step) {
+    return sides_of_jumps(slot, {at.position + step, at.velocity, at.load}, p) == here ? std::abs(step) : 0.0;
+  };
+  const Reach reach{free(most), free(-most)};
+  return reach.up + reach.down > 0.0 ? reach : Reach{most, most};
+}
+
 // A difference as wide as the change over a sample is the mean slope on the way, also of a law that jumps
 // there. The force's slopes go to slopes_, those of the states' rates to A.
 void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* change,
@@ -92,7 +119,9 @@ void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* 
   const effects::Motion half = half_change(slot, change);
   const double dq = std::max(1e-10 * (1.0 + std::abs(at.position)), std::abs(half.position));
   const double dv = std::max(1e-6 * (1.0 + std::abs(at.velocity)), std::abs(half.velocity));
-  add(0, {at.position + dq, at.velocity, at.load}, {at.position - dq, at.velocity, at.load}, 2.0 * dq);
+  const Reach reach = reach_beside_jumps(slot, at, dq);
+  add(0, {at.position + reach.up, at.velocity, at.load}, {at.position - reach.down, at.velocity, at.load},
+      reach.up + reach.down);
   add(nz_, {at.position, at.velocity + dv, at.load}, {at.position, at.velocity - dv, at.load}, 2.0 * dv);
   for (int k = 0; k < states; ++k) {
     const double ds = 1e-7 * (1.0 + std::abs(s[k]));
@@ -208,14 +237,17 @@ void Plant::base_tangent(const SampleMotion& sample, ParameterId id, double step
 
 // A force that turns with the velocity's sign within the sample is averaged over it. To move the rest that a
 // law measures from is to move the place the other way: as wide as the sample, so that a sharp knee counts
-// with its mean slope, as in force_tangent.
+// with its mean slope, as in force_tangent. A step that would move a jump across the place is taken the other
+// way.
 void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
                                     ParameterId id, const effects::Values& moved, double step,
                                     Eigen::Ref<Eigen::VectorXd> column) {
   const effects::Declaration& declaration = slot.law->declaration();
   const bool rest = effects::is_rest(declaration.parameters[static_cast<std::size_t>(id.parameter)]);
   const double* here = values(slot.effect);
-  const double* there = rest ? here : moved.data();
+  const bool jumps = !rest && slot.law->jumps(here) > 0;
+  effects::Values moved_back = moved;
+  moved_back[static_cast<std::size_t>(id.parameter)] -= 2.0 * step;
   const double* s = slot.state >= 0 ? x + slot.state : nullptr;
   const int states = slot.state >= 0 ? slot.law->state_count() : 0;
   const effects::Motion mean = motion(slot, x);
@@ -223,7 +255,6 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
   const int parts = std::abs(half.velocity) > std::abs(mean.velocity) ? kPartsOfTurn : 1;
   const double reach =
       rest ? std::max(1e-6 * (1.0 + std::abs(mean.position)), std::abs(half.position) / parts) : 0.0;
-  const double width = (rest ? 2.0 * reach : step) * parts;
   Eigen::VectorXd up(states);
   Eigen::VectorXd now(states);
   double force = 0.0;
@@ -231,6 +262,9 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
     const double share = (2.0 * i + 1.0) / parts - 1.0;
     effects::Motion at{mean.position + share * half.position + reach, mean.velocity + share * half.velocity,
                        mean.load};
+    const bool back = jumps && sides_of_jumps(slot, at, moved.data()) != sides_of_jumps(slot, at, here);
+    const double* there = rest ? here : (back ? moved_back : moved).data();
+    const double width = (rest ? 2.0 * reach : back ? -step : step) * parts;
     const double before = slot.active ? slot.law->force(at, s, here) : 0.0;
     if (states > 0) {
       slot.law->state_rate(at, s, here, now.data());
@@ -329,10 +363,15 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
-  // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change.
+  // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change. Behind a
+  // jump a stiff law may bring the velocity to its end within a hundredth of the sample, as no cubic does.
   const Eigen::Map<const Eigen::VectorXd> change(sample.change, nx_);
-  const Eigen::VectorXd mean =
-      Eigen::Map<const Eigen::VectorXd>(x, nx_) - sample.period / 12.0 * (A * change);
+  Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
+  if (sample.jumped) {
+    mean.segment(nz_, nz_) = change.head(nz_) / sample.period;
+  } else {
+    mean -= sample.period / 12.0 * (A * change);
+  }
   B.resize(nx_, static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);

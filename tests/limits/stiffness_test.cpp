@@ -1,6 +1,7 @@
 // The approximate Jacobian where it is exact, and the effect that is named as the stiffest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/integrate/plant_ode.h"
@@ -90,6 +91,23 @@ TEST_P(WholeMachine, NamesItsStopAsTheStiffest) {
   const model::Stiffest found = plant_.stiffest(x_.data(), command_.data());
   EXPECT_EQ(found.element.substr(0, 16), "hard_stop at bsp");
   EXPECT_GT(found.rate, 1e5);  // 1000 N m s/rad on a pulley of 1.9e-3 kg m^2
+}
+
+// A difference across a stop's surface, where its damping sets in, would be a stiffness of 1e12 N m/rad.
+TEST_P(WholeMachine, AStopThatHasJustBeenMetIsAsStiffAsFurtherIn) {
+  const std::vector<std::string> names = plant_.state_names();
+  const auto pulley = std::find(names.begin(), names.end(), "position of bsp_left") - names.begin();
+  ASSERT_LT(pulley, plant_.positions());
+  x_[plant_.positions() + pulley] = -0.1;  // moving in, rad/s
+  const auto jacobian_at = [&](double depth) {
+    x_[pulley] = -depth;
+    Eigen::MatrixXd A(plant_.states(), plant_.states());
+    plant_.stiff_jacobian(x_.data(), command_.data(), A);
+    return A;
+  };
+  const Eigen::MatrixXd inside = jacobian_at(1e-6);
+  EXPECT_GT(inside.norm(), 1e5);
+  EXPECT_LT((jacobian_at(1e-13) - inside).norm(), 1e-4 * inside.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Mabel, WholeMachine, testing::Values("mabel_planar.yaml", "mabel.yaml"),

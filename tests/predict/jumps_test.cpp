@@ -23,7 +23,8 @@ class Jumps : public testing::Test {
 
   /// Within `share` of each derivative that matters. The oracle is differences of whole predictions: the
   /// variational equations know nothing of them.
-  static void agree_with_differences(const std::string& effect, const Window& window, double share) {
+  static void agree_with_differences(const std::string& effect, const Window& window, double share,
+                                     double step = 1e-5) {
     const model::Model model = pendulum(effect);
     const Trial trial = steps_of(model);
     const std::vector<FreeParameter> parameters = free_parameters(model);
@@ -38,7 +39,6 @@ class Jumps : public testing::Test {
       EXPECT_LT((one - two).norm(), share * two.norm()) << what;
     };
     for (Eigen::Index i = 0; i < x0.size(); ++i) {
-      const double step = 1e-5;
       const Eigen::VectorXd unit = step * Eigen::VectorXd::Unit(x0.size(), i);
       const Eigen::VectorXd below = predictor.residual(window, x0 - unit);
       compare(found.Jx.col(i), (below - predictor.residual(window, x0 + unit)) / (2.0 * step),
@@ -47,16 +47,16 @@ class Jumps : public testing::Test {
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       model::Plant& plant = predictor.plant();
       const double value = plant.value(parameters[p].id);
-      const double step = 1e-4 * std::abs(value);
-      if (step == 0.0) {
+      const double change = 10.0 * step * std::abs(value);
+      if (change == 0.0) {
         continue;
       }
-      parameters[p].set(plant, value - step);
+      parameters[p].set(plant, value - change);
       const Eigen::VectorXd below = predictor.residual(window, x0);
-      parameters[p].set(plant, value + step);
+      parameters[p].set(plant, value + change);
       const Eigen::VectorXd above = predictor.residual(window, x0);
       parameters[p].set(plant, value);
-      const Eigen::VectorXd differences = (below - above) / (2.0 * step);
+      const Eigen::VectorXd differences = (below - above) / (2.0 * change);
       constexpr double kFloors = 0.1;  // what a parameter as large as it is does not move is noise
       if (differences.norm() * std::abs(value) > kFloors) {
         compare(found.Jp.col(static_cast<Eigen::Index>(p)), differences, parameters[p].label);
@@ -68,6 +68,17 @@ class Jumps : public testing::Test {
 TEST_F(Jumps, AtAStopTheDerivativesAgreeWithDifferences) {
   agree_with_differences("hard_stop@shoulder:cubic_stiffness=4000,damping=40,position=0.1,side=1",
                          {0, 200, 300, {}}, 0.03);
+}
+
+// A stop that brings the motion to rest within a thousandth of a sample; and one that lets go of it at a
+// two-thousandth of the speed at which it was met.
+TEST_F(Jumps, AtAStopThatHoldsAtOnceTheDerivativesAgreeWithDifferences) {
+  const Window meets{0, 200, 300, {}};
+  agree_with_differences("hard_stop@shoulder:cubic_stiffness=4000,damping=400000,position=0.1,side=1", meets,
+                         0.03);
+  const Window leaves{0, 780, 600, {}};
+  agree_with_differences("hard_stop@shoulder:cubic_stiffness=4000,damping=4000,position=0.1,side=1", leaves,
+                         0.03, 1e-8);
 }
 
 TEST_F(Jumps, WherePlayClosesTheDerivativesAgreeWithDifferences) {

@@ -12,15 +12,16 @@ namespace plumbline::validation {
 // sample's mean command.
 void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
                            const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
-                           bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+                           bool refresh, bool jumped, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
   Eigen::VectorXd command(plant_.motors());
   Eigen::VectorXd slope(plant_.motors());
   commands_->mean(window.first + k, command.data(), slope.data());
   const Eigen::VectorXd middle = 0.5 * (states_.col(n) + states_.col(n + 1));
   // A hair less than the piece: a force may jump at its ends, which is not this piece's matter.
   const Eigen::VectorXd change = (1.0 - 1e-6) * (states_.col(n + 1) - states_.col(n));
-  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period},
-                 ids, steps, refresh, A, B);
+  plant_.tangent(
+      {middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period, jumped}, ids,
+      steps, refresh, A, B);
 }
 
 // Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
@@ -29,6 +30,7 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
 // (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
+  constexpr int kPartsAfterJump = 4;  // it throws the deviations far along what is stiff behind it
   if (options_.differences) {
     return linearise_by_differences(window, x0, parameters);
   }
@@ -97,13 +99,15 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     }
     plates.begin();
     for (Eigen::Index n = node_of(k); n < node_of(k + 1); ++n) {
+      bool jumped = false;
       for (const JumpNode& jump : jump_nodes_) {
         if (jump.node == n) {
           jump_slopes(jump, ids, steps, S);
+          jumped = true;
         }
       }
-      tangent_at(window, k, n, ids, steps, n == node, A, B);
-      sensitivity.step(length_of(n), A, B);
+      tangent_at(window, k, n, ids, steps, n == node, jumped, A, B);
+      sensitivity.step(length_of(n), A, B, jumped ? kPartsAfterJump : 1);
       if (plates.any()) {
         plates.add(length_of(n), 0.5 * (states_.col(n) + states_.col(n + 1)), sensitivity.mean());
       }

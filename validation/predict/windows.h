@@ -186,7 +186,7 @@ class Predictor {
   void refresh_commands();
   void tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
                   const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps, bool refresh,
-                  Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+                  bool jumped, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
   Eigen::MatrixXd with_starts(const Eigen::MatrixXd& channels, bool rates) const;
   void fall_freely(const Window& window, Eigen::VectorXd& x);
