@@ -11,9 +11,9 @@ namespace plumbline::model {
 
 namespace {
 
-constexpr double kDepthStep = 1e-8;  // m
-constexpr double kSpeedStep = 1e-4;  // m/s: the root of a speed has no slope at rest
-constexpr double kBaseStep = 1e-6;   // 1/m or m
+constexpr double kLeastDepthStep = 1e-13;  // m
+constexpr double kSpeedStep = 1e-4;        // m/s: the root of a speed has no slope at rest
+constexpr double kBaseStep = 1e-6;         // 1/m or m
 
 }  // namespace
 
@@ -211,12 +211,15 @@ void Plant::leverage_tangent(const FootSlot& slot, const Touch& at, const double
 }
 
 // By depth and by the velocity's three parts, as wide as they change on the way: mean slopes, as in
-// force_tangent.
+// force_tangent. By depth no wider, however short the way is: where the foot lands the rate of its bristles
+// jumps, from how they straighten to the slip, and counts by the share of the step that lies across.
 void Plant::foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
                          Eigen::Ref<Eigen::MatrixXd> A) {
+  constexpr double kShareOfDepth = 1e-6;
+  const double least_depth = std::max(kLeastDepthStep, kShareOfDepth * std::abs(at.depth));
   for (int k = 0; k < 4; ++k) {
     const bool by_depth = k == 3;
-    const double step = by_depth ? std::max(kDepthStep, std::abs(half.depth))
+    const double step = by_depth ? std::max(least_depth, std::abs(half.depth))
                                  : std::max(kSpeedStep, std::abs(half.velocity[k]));
     Touch plus = at;
     Touch minus = at;

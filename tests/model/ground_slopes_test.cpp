@@ -44,9 +44,12 @@ class GroundSlopes : public testing::TestWithParam<std::string> {
   }
 
   void linearise(const std::vector<ParameterId>& parameters) {
-    const Eigen::VectorXd still = Eigen::VectorXd::Zero(plant_.states());
+    linearise_over(Eigen::VectorXd::Zero(plant_.states()), parameters);
+  }
+
+  void linearise_over(const Eigen::VectorXd& change, const std::vector<ParameterId>& parameters) {
     const Eigen::VectorXd held = Eigen::VectorXd::Zero(plant_.motors());
-    const SampleMotion sample{x_.data(), still.data(), commands_.data(), held.data(), 1e-3};
+    const SampleMotion sample{x_.data(), change.data(), commands_.data(), held.data(), 1e-3};
     plant_.tangent(sample, parameters,
                    Eigen::VectorXd::Constant(static_cast<Eigen::Index>(parameters.size()), 1e-6), true, A_,
                    B_);
@@ -71,6 +74,22 @@ TEST_P(GroundSlopes, AreThoseOfTheRates) {
     EXPECT_LT((A_.col(i) - expected).norm(), 1e-5 * expected.norm() + 0.2)
         << plant_.state_names()[static_cast<std::size_t>(i)] << ": " << expected.norm();
   }
+}
+
+// The integrator lands in steps of a nanometre: the jump of the bristles' rate counts whole on each.
+TEST_P(GroundSlopes, HoldTheJumpOfTheBristlesWhereAFootLands) {
+  constexpr double kWay = 1e-9;  // m
+  for (int round = 0; round < 20; ++round) {
+    x_[1] += plant_.foot_depth(0, x_.data()).depth / -plant_.depth_slope(0, x_.data())[1];
+  }
+  const Eigen::Index bristles = plant_.states() - 2 * plant_.positions();
+  x_.tail(bristles).setConstant(1e-3);  // bent, so that they straighten in the air
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(plant_.states());
+  change[1] = kWay / plant_.depth_slope(0, x_.data())[1];
+  linearise_over(change, {});
+  const Eigen::VectorXd jump = rate(x_ + 0.5 * change) - rate(x_ - 0.5 * change);
+  EXPECT_GT(jump.tail(bristles).norm(), 0.05);  // m/s
+  EXPECT_LT((A_ * change - jump).tail(bristles).norm(), 1e-3 * jump.tail(bristles).norm());
 }
 
 class GroundSlopesByTheBoom : public GroundSlopes {};
