@@ -364,13 +364,17 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
   // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change. Behind a
-  // jump a stiff law may bring the velocity to its end within a hundredth of the sample, as no cubic does.
+  // jump a stiff law may bring the velocity to its end within a hundredth of the sample, as no cubic does:
+  // its mean velocity is then not the change of position over the time.
+  constexpr double kAstray = 0.1;  // of the change of velocity
   const Eigen::Map<const Eigen::VectorXd> change(sample.change, nx_);
-  Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
-  if (sample.jumped) {
-    mean.segment(nz_, nz_) = change.head(nz_) / sample.period;
-  } else {
-    mean -= sample.period / 12.0 * (A * change);
+  const Eigen::Map<const Eigen::VectorXd> middle(x, nx_);
+  const Eigen::VectorXd velocity = change.head(nz_) / sample.period;
+  Eigen::VectorXd mean = middle - sample.period / 12.0 * (A * change);
+  if (sample.jumped &&
+      (mean.segment(nz_, nz_) - velocity).norm() > kAstray * change.segment(nz_, nz_).norm()) {
+    mean = middle;
+    mean.segment(nz_, nz_) = velocity;
   }
   B.resize(nx_, static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t k = 0; k < parameters.size(); ++k) {
