@@ -83,6 +83,8 @@ TEST_F(Jumps, AtAStopThatHoldsAtOnceTheDerivativesAgreeWithDifferences) {
 
 TEST_F(Jumps, WherePlayClosesTheDerivativesAgreeWithDifferences) {
   agree_with_differences("backlash@shoulder:gap=0.02,stiffness=300,damping=4", {0, 190, 160, {}}, 0.1);
+  // Soft: a sample's mean motion in contact is that of a cubic, and the damping shows by it.
+  agree_with_differences("backlash@shoulder:gap=0.02,stiffness=30,damping=0.1", {0, 190, 160, {}}, 0.2);
 }
 
 // The hopper's carriage is seen by no sensor: with play in its ratio nothing says where in the play it is.
