@@ -67,6 +67,7 @@ std::vector<bool> Plant::sides_of_jumps(const ForceSlot& slot, const effects::Mo
   slot.law->switches(at, p, g);
   g.resize(static_cast<std::size_t>(slot.law->jumps(p)));
   std::vector<bool> sides;
+  sides.reserve(g.size());
   for (const double one : g) {
     sides.push_back(one > 0.0);
   }
