@@ -16,6 +16,20 @@ void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0
   }
 }
 
+bool Predictor::is_behind_jump(Eigen::Index node) const {
+  return std::any_of(jump_nodes_.begin(), jump_nodes_.end(),
+                     [node](const JumpNode& jump) { return jump.node == node; });
+}
+
+void Predictor::jump_slopes(Eigen::Index node, const std::vector<model::ParameterId>& ids,
+                            const Eigen::VectorXd& steps, Eigen::MatrixXd& S) {
+  for (const JumpNode& jump : jump_nodes_) {
+    if (jump.node == node) {
+      jump_slopes(jump, ids, steps, S);
+    }
+  }
+}
+
 // A motion that deviates by S reaches the point g(x, p) = 0 earlier or later, and has for so long another
 // rate:
 //   S <- S + (f_behind - f_before) (dg/dx S + dg/dp) / (dg/dx f_before),

@@ -9,25 +9,25 @@
 namespace plumbline::validation {
 
 // Linearisation over piece n, which is in sample k of the window: at the middle of its states, under the
-// sample's mean command.
+// sample's mean command. The rigid parts are those of the sample's first piece. Held longer they seem to tell
+// apart what the data cannot (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
 void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
                            const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
-                           bool refresh, bool jumped, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+                           Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
   Eigen::VectorXd command(plant_.motors());
   Eigen::VectorXd slope(plant_.motors());
   commands_->mean(window.first + k, command.data(), slope.data());
   const Eigen::VectorXd middle = 0.5 * (states_.col(n) + states_.col(n + 1));
   // A hair less than the piece: a force may jump at its ends, which is not this piece's matter.
   const Eigen::VectorXd change = (1.0 - 1e-6) * (states_.col(n + 1) - states_.col(n));
-  plant_.tangent(
-      {middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period, jumped}, ids,
-      steps, refresh, A, B);
+  const bool is_first = n == node_of(k);
+  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period,
+                  is_behind_jump(n)},
+                 ids, steps, is_first, A, B);
 }
 
 // Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
-// compliant ground's force begins and ends at zero, so that nothing jumps at touchdown and lift-off. The
-// rigid parts are those of a sample's first piece. Held longer they seem to tell apart what the data cannot
-// (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
+// compliant ground's force begins and ends at zero, so that nothing jumps at touchdown and lift-off.
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
   constexpr int kPartsAfterJump = 4;  // it throws the deviations far along what is stiff behind it
@@ -98,16 +98,10 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
       break;
     }
     plates.begin();
-    for (Eigen::Index n = node_of(k); n < node_of(k + 1); ++n) {
-      bool jumped = false;
-      for (const JumpNode& jump : jump_nodes_) {
-        if (jump.node == n) {
-          jump_slopes(jump, ids, steps, S);
-          jumped = true;
-        }
-      }
-      tangent_at(window, k, n, ids, steps, n == node, jumped, A, B);
-      sensitivity.step(length_of(n), A, B, jumped ? kPartsAfterJump : 1);
+    for (Eigen::Index n = node; n < node_of(k + 1); ++n) {
+      jump_slopes(n, ids, steps, S);
+      tangent_at(window, k, n, ids, steps, A, B);
+      sensitivity.step(length_of(n), A, B, is_behind_jump(n) ? kPartsAfterJump : 1);
       if (plates.any()) {
         plates.add(length_of(n), 0.5 * (states_.col(n) + states_.col(n + 1)), sensitivity.mean());
       }

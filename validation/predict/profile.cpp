@@ -113,6 +113,7 @@ class Profile {
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kFactor = 2.0;
+  static constexpr double kFar = 20.0;        // times its value: known to less than an order is not known
   static constexpr double kAsForetold = 0.6;  // of the rise: the cost need not be a parabola to a tenth
 
   double search_deviation(Eigen::Index p) const { return precision_.above[p] / units_[p]; }
@@ -157,19 +158,17 @@ class Profile {
   /// The longest way that is gone, search units.
   double reach_of(Eigen::Index p) const {
     constexpr double kMost = 20.0;
-    constexpr double kMostTimes = 20.0;  // its value: known to less than an order is not known
     const bool is_logarithm = parameters_[static_cast<std::size_t>(p)].scale == effects::Scale::logarithm;
-    return is_logarithm ? std::log(kMostTimes) / units_[p] : kMost;
+    return is_logarithm ? std::log(kFar) / units_[p] : kMost;
   }
 
   /// To the bound; infinite stiffness, 1/0, is taken as met at some times the value.
   double room_to_bound(Eigen::Index p, double side) const {
-    constexpr double kRigid = 20.0;
     const double all = side > 0.0 ? room_.upper[p] : -room_.lower[p];
     const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
     const bool to_rigid =
         parameter.scale == effects::Scale::reciprocal && side < 0.0 && !std::isfinite(parameter.upper);
-    return to_rigid ? all * (1.0 - 1.0 / kRigid) : all;
+    return to_rigid ? all * (1.0 - 1.0 / kFar) : all;
   }
 
   double distance_to(Eigen::Index p, double to) const {

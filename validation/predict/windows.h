@@ -163,6 +163,9 @@ class Predictor {
   void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
   void advance_in_pieces(integrate::Integrator& integrator, double end, double t0);
   void add_jumps(const std::vector<integrate::Event>& events, double t0);
+  bool is_behind_jump(Eigen::Index node) const;
+  void jump_slopes(Eigen::Index node, const std::vector<model::ParameterId>& ids,
+                   const Eigen::VectorXd& steps, Eigen::MatrixXd& S);
   void jump_slopes(const JumpNode& at, const std::vector<model::ParameterId>& ids,
                    const Eigen::VectorXd& steps, Eigen::MatrixXd& S);
   void begin_nodes(const Window& window);
@@ -185,8 +188,8 @@ class Predictor {
                                          const std::vector<FreeParameter>& parameters);
   void refresh_commands();
   void tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
-                  const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps, bool refresh,
-                  bool jumped, Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+                  const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
+                  Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   Eigen::MatrixXd local_polynomial(const Window& window) const;
   Eigen::MatrixXd with_starts(const Eigen::MatrixXd& channels, bool rates) const;
   void fall_freely(const Window& window, Eigen::VectorXd& x);
