@@ -38,7 +38,8 @@ Values CableStretch::typical(const Scales& scales) const {
 std::vector<Values> CableStretch::starts(const Scales& scales) const {
   const double inertia = guarded(scales).inertia;
   std::vector<Values> grid;
-  for (const double frequency : {6.0, 18.0, 50.0}) {
+  // The highest where a light motor drives a heavy load: it swings against the cable by itself.
+  for (const double frequency : {6.0, 18.0, 50.0, 150.0, 450.0}) {
     const double rate = 2.0 * kPi * frequency;
     grid.push_back({inertia * rate * rate, 2.0 * kDampingRatio * inertia * rate});
   }

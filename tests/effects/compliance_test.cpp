@@ -36,7 +36,7 @@ TEST(CableStretch, StartsRingAtTheirFrequenciesAndDecay) {
   const auto law = law_named("cable_stretch");
   const Scales scales = test_scales();
   const auto starts = law->starts(scales);
-  const std::vector<double> frequencies{6, 18, 50};
+  const std::vector<double> frequencies{6, 18, 50, 150, 450};
   ASSERT_EQ(starts.size(), frequencies.size());
   const double zeta = 0.3, root = std::sqrt(1 - zeta * zeta);
   for (std::size_t i = 0; i < starts.size(); ++i) {
