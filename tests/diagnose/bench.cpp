@@ -1,6 +1,7 @@
 #include "tests/diagnose/bench.h"
 
 #include "simulator/model/robot_file.h"
+#include "tests/predict/hopper.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
@@ -19,6 +20,12 @@ Data bench_twins(const std::vector<std::string>& hidden) {
     trials.back().name = trials.back().file = name;
   }
   return Data(std::move(trials), {});
+}
+
+Data hopper_twins(const std::string& hidden) {
+  model::Model truth = test::hopper();
+  truth.effects.push_back(parse_effect(hidden, truth, effects::Catalogue::all()));
+  return Data({test::hopper_trial(truth, "bounce"), test::hopper_trial(truth, "steps")}, {});
 }
 
 effects::Catalogue some_laws(const std::set<std::string>& names) {

@@ -16,6 +16,9 @@ model::Model bench();
 /// it.
 Data bench_twins(const std::vector<std::string>& hidden);
 
+/// The hopper's two trials, recorded with this effect in it.
+Data hopper_twins(const std::string& hidden);
+
 /// A small catalogue: the trial of every law would take minutes.
 effects::Catalogue some_laws(const std::set<std::string>& names);
 

@@ -40,13 +40,8 @@ TEST(Play, IsFittedFromFarAway) {
 
 // No sensor sees the hopper's carriage, and beside the motor alone its contact is far stiffer than 60 Hz.
 TEST(Play, IsFoundWhereNoSensorSeesItsDrivenSide) {
-  const model::Model hopper = test::hopper();
-  model::Model truth = hopper;
-  truth.effects.push_back(parse_effect("backlash@carriage:gap=0.0043,stiffness=1750,damping=0.06", truth,
-                                       effects::Catalogue::all()));
-  const Data data =
-      Data({test::hopper_trial(truth, "bounce"), test::hopper_trial(truth, "steps")}, {}).thinned(4);
-  const Stage stage = as_given(hopper, data);
+  const Data data = hopper_twins("backlash@carriage:gap=0.0043,stiffness=1750,damping=0.06").thinned(4);
+  const Stage stage = as_given(test::hopper(), data);
   const Tried tried = try_candidates(stage, some_laws({"backlash"}), {}, data, {}, silent);
   const Refit& found = first_of("backlash@carriage", tried.refits, tried.candidates);
   EXPECT_LT(found.estimate.scores.train, 1.3) << "floors";

@@ -6,20 +6,14 @@
 #include "tests/diagnose/bench.h"
 #include "tests/predict/hopper.h"
 #include "validation/diagnose/candidates.h"
-#include "validation/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {
 
 // The hopper's motor alone swings against this cable at 320 Hz: seen from 50 Hz it promises nothing.
 TEST(Screen, SeesAStiffCableBetweenALightMotorAndAHeavyLoad) {
-  const model::Model hopper = test::hopper();
-  model::Model truth = hopper;
-  truth.effects.push_back(
-      parse_effect("cable_stretch@carriage:stiffness=800,damping=0.02", truth, effects::Catalogue::all()));
-  const Data data =
-      Data({test::hopper_trial(truth, "bounce"), test::hopper_trial(truth, "steps")}, {}).thinned(4);
-  const Stage stage = as_given(hopper, data);
+  const Data data = hopper_twins("cable_stretch@carriage:stiffness=800,damping=0.02").thinned(4);
+  const Stage stage = as_given(test::hopper(), data);
   PredictorPool pool(stage.model, data);
   const std::vector<Candidate> candidates =
       list_candidates(pool, some_laws({"cable_stretch"}), {}, stage.estimate);
