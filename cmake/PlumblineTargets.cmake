@@ -38,11 +38,14 @@ function(plumbline_precompiled_tests)
 endfunction()
 
 # plumbline_library(NAME SOURCES a.cpp ... LIBS x y): a static library plumbline_NAME, includes from the root.
+# Position-independent, because the Python module is made of the same libraries; nobody replaces their functions.
 function(plumbline_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
   add_library(plumbline_${name} STATIC ${ARG_SOURCES})
   target_include_directories(plumbline_${name} PUBLIC ${CMAKE_SOURCE_DIR})
   target_link_libraries(plumbline_${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
+  set_target_properties(plumbline_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(plumbline_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   plumbline_options(plumbline_${name})
 endfunction()
 
