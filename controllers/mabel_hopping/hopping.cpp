@@ -1,4 +1,4 @@
-#include "controllers/hopping.h"
+#include "controllers/mabel_hopping/hopping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,9 +65,13 @@ void Hopping::reset() noexcept {
 
 void Hopping::resume(double h_T_d, std::int64_t tower) noexcept {
   reset();
+  remember(h_T_d, tower, true);
+}
+
+void Hopping::remember(double h_T_d, std::int64_t tower, bool landed) noexcept {
   h_T_d_ = h_T_d;
   tower_at_landing_ = tower;
-  landed_ = true;
+  landed_ = landed;
 }
 
 double Hopping::time_in_phase() const noexcept {

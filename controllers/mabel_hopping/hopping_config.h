@@ -9,7 +9,7 @@
 
 #include <limits>
 
-#include "controllers/rate_filter.h"
+#include "controllers/blocks/rate_filter.h"
 
 namespace plumbline::controllers {
 

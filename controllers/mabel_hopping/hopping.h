@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "controllers/hopping_config.h"
-#include "controllers/hopping_phases.h"
-#include "controllers/rate_filter.h"
+#include "controllers/blocks/rate_filter.h"
+#include "controllers/mabel_hopping/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_phases.h"
 
 namespace plumbline::controllers {
 
@@ -79,6 +79,8 @@ class Hopping {
   HoppingTorques command(const HoppingSample& sample) noexcept;
   /// As just constructed.
   void reset() noexcept;
+  /// What outlasts a hop: h_T^d, the tower's counts at the last landing, and whether there has been one.
+  void remember(double h_T_d, std::int64_t tower, bool landed) noexcept;
   /// As just constructed, but as if in flight behind a landing at `tower` counts that left h_T^d at `h_T_d`.
   void resume(double h_T_d, std::int64_t tower) noexcept;
 
@@ -90,6 +92,7 @@ class Hopping {
   /// Why the power is off; none while it is on.
   StopSwitch power_off() const noexcept { return power_off_; }
   std::int64_t tower_at_landing() const noexcept { return tower_at_landing_; }  ///< counts, of the last one
+  bool landed() const noexcept { return landed_; }                              ///< at least once
   double hip_velocity() const noexcept { return hip_velocity_; }                ///< upward, m/s
   const HoppingVector& controlled() const noexcept { return h_; }               ///< h, rad
   const HoppingVector& rates() const noexcept { return rates_; }                ///< dh/dt, rad/s

@@ -1,4 +1,4 @@
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 
 #include <cmath>
 #include <stdexcept>

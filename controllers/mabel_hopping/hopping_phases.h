@@ -1,7 +1,7 @@
 // The phases of hopping (Figure S3 of the MABEL paper) and what leads from one to the next.
 #pragma once
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 
 namespace plumbline::controllers {
 
