@@ -17,6 +17,7 @@ void accept(const Tried& tried, const Choice& choice, const Data& data, Diagnosi
               correlation(tried.stage, next, after(rival), data), finding);
   }
   set_errors(tried.stage.estimate, refit.estimate, finding);
+  finding.rung = static_cast<int>(diagnosis.ladder.size());
   std::vector<Finding> accepted = diagnosis.accepted;
   accepted.push_back(finding);
   set_values(next, data, accepted);
@@ -40,9 +41,11 @@ void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choic
     add_pair_rivals(pairs[i], pair, correlation(tried.stage, both, after(pairs[i].refit), data), first,
                     second);
   }
+  drop_accepted(diagnosis);
+  first.rung = static_cast<int>(diagnosis.ladder.size());
+  second.rung = first.rung + 1;
   std::vector<Finding> accepted{first, second};
   set_values(both, data, accepted);
-  drop_accepted(diagnosis);
   const double length = diagnosis.ladder.back().length;
   diagnosis.ladder.push_back({"+ " + pair.first.label(), single, length});
   diagnosis.final_stage = both;

@@ -116,7 +116,7 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 }
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
-  if (!explains_nearly_all(given, fitted)) {
+  if (!explains_much(given, fitted)) {
     look(options_.most_as_stated, diagnosis);
     if (!speaks_for_stated(diagnosis)) {
       restart({given, fitted}, diagnosis);
@@ -141,8 +141,8 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
 }
 
-bool Diagnoser::explains_nearly_all(const Rung& given, const Rung& fitted) const {
-  constexpr double kLeft = 0.05;
+bool Diagnoser::explains_much(const Rung& given, const Rung& fitted) const {
+  constexpr double kLeft = 0.5;
   const double before = judged(given.stage.estimate, data_);
   const double after = judged(fitted.stage.estimate, data_);
   return before > options_.finished && after * after - 1.0 < kLeft * (before * before - 1.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "validation/diagnose/first_of_each.h"
@@ -16,8 +17,13 @@ bool jumps(const model::EffectUse& use) {
   return law != nullptr && law->jumps(use.numbers().data()) > 0;
 }
 
-Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
-                const Data& data, int iterations) {
+/// From what the hypothesis promises, or a share of the way there.
+Refit refit_from(double share, const Stage& stage, const Candidate& candidate, Hypothesis hypothesis,
+                 const Data& data, int iterations) {
+  hypothesis.step *= share;
+  if (share < 1.0) {
+    hypothesis.x0.clear();  // promised together with the whole step
+  }
   Refit result;
   result.candidate = hypothesis.candidate;
   result.extended = extend(stage, candidate, hypothesis.start);
@@ -37,6 +43,19 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   result.estimate = gauss_newton(pool, result.extended.parameters, theta, x0, {iterations, 5e-3, by_parts});
   result.extended.theta = result.estimate.theta;
   return result;
+}
+
+/// A straight line may promise values at which the model cannot be integrated: then nearer to the start.
+Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                const Data& data, int iterations) {
+  try {
+    return refit_from(1.0, stage, candidate, hypothesis, data, iterations);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    constexpr double kNear = 0.1;
+    return refit_from(kNear, stage, candidate, hypothesis, data, iterations);
+  }
 }
 
 void continue_refit(Refit& refit, const Data& data, int iterations) {
@@ -95,6 +114,12 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
   sort_by_error(refits);
 }
 
+/// Parameters that a refit of the hypothesis would fit beside the stage's.
+int free_count(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage) {
+  return static_cast<int>(extend(stage, candidate, hypothesis.start).parameters.size() -
+                          stage.parameters.size());
+}
+
 /// Further starts of the two best candidates: a law with a threshold inside the motion has several minima,
 /// and above the floor the right one may not have been met.
 std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
@@ -113,6 +138,30 @@ std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
   return others;
 }
 
+/// Laws of fewer fitted parameters at the place of the best refit that were not refitted: it may contain one of
+/// them and owe it what it explains.
+std::vector<const Hypothesis*> simpler_than(const Refit& best, const std::vector<Refit>& refits,
+                                            const std::vector<Candidate>& candidates,
+                                            const std::vector<Hypothesis>& hypotheses, const Stage& stage) {
+  constexpr std::size_t kMost = 3;
+  const Candidate& named = candidates[static_cast<std::size_t>(best.candidate)];
+  std::vector<const Hypothesis*> simpler;
+  std::set<int> seen;
+  for (const Refit& refit : refits) {
+    seen.insert(refit.candidate);
+  }
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
+    const bool is_simpler = candidate.place == named.place && candidate.at == named.at &&
+                            candidate.law->state_count() <= named.law->state_count() &&
+                            free_count(candidate, hypothesis, stage) < best.own;
+    if (is_simpler && simpler.size() < kMost && seen.insert(hypothesis.candidate).second) {
+      simpler.push_back(&hypothesis);
+    }
+  }
+  return simpler;
+}
+
 /// Of several refits of one candidate only the first, which is the best.
 void keep_best_of_each(std::vector<Refit>& refits) {
   refits = first_of_each(std::move(refits), [](const Refit& one, const Refit& other) {
@@ -129,7 +178,8 @@ void sort_by_error(std::vector<Refit>& refits) {
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,
-                         const DiagnoseOptions& options, const Progress& progress) {
+                         const DiagnoseOptions& options, const Progress& progress,
+                         std::vector<NotRefitted>* failed) {
   // Segments are short enough for a straight line: fewer candidates need a refit.
   constexpr int kRefitsOnSegments = 5;
   const bool straight = data.has_segments();
@@ -153,7 +203,10 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       refits.push_back(refit_one(stage, candidate, hypothesis, data, 4));
     } catch (const Stopped&) {
       throw;
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error& error) {
+      if (failed != nullptr) {
+        failed->push_back({hypothesis.candidate, error.what()});
+      }
       return;  // it cannot be integrated: no explanation of these trials
     }
     sort_by_error(refits);
@@ -176,6 +229,16 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
     keep_best_of_each(refits);
     finish(refits, candidates, data, options, progress);
+  }
+  if (!refits.empty()) {
+    const std::vector<const Hypothesis*> simpler =
+        simpler_than(refits.front(), refits, candidates, hypotheses, stage);
+    for (const Hypothesis* one : simpler) {
+      add(*one, 0.95);
+    }
+    if (!simpler.empty()) {
+      finish(refits, candidates, data, options, progress);
+    }
   }
   return refits;
 }
