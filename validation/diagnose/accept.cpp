@@ -53,6 +53,24 @@ void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choic
   diagnosis.accepted = accepted;
 }
 
+void accept_group(const Tried& tried, const Group& group, const Data& data, Diagnosis& diagnosis) {
+  std::vector<Finding> accepted = diagnosis.accepted;
+  for (std::size_t i = 0; i < group.candidates.size(); ++i) {
+    Finding finding = finding_of(group.candidates[i]);
+    finding.selected_share = group.share;
+    finding.rung = static_cast<int>(diagnosis.ladder.size());
+    finding.together_with = group.candidates[i == 0 ? 1 : 0].label();
+    set_errors(tried.stage.estimate, group.stage.estimate, finding);
+    accepted.push_back(std::move(finding));
+  }
+  set_values(group.stage, data, accepted);
+  diagnosis.final_stage = group.stage;
+  diagnosis.accepted = accepted;
+  diagnosis.ladder.push_back(
+      {"+ friction at " + std::to_string(group.candidates.size()) + " places", group.stage,
+       diagnosis.ladder.back().length});
+}
+
 void drop_accepted(Diagnosis& diagnosis) {
   diagnosis.accepted.clear();
   diagnosis.ladder.resize(diagnosis.bare_rungs);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "validation/diagnose/accept.h"
@@ -214,8 +215,19 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   const Choice choice = choose(tried.stage, tried.refits, data_, options_);
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
-  if (choice.named >= 0) {
+  const std::optional<Group> group =
+      diagnosis.accepted.empty() ? friction_everywhere(tried, data_, options_, progress_) : std::nullopt;
+  if (group) {
+    accept_group(tried, *group, data_, diagnosis);
+  } else if (choice.named >= 0) {
     accept(tried, choice, data_, diagnosis);
+  }
+  const bool is_named = group || choice.named >= 0;
+  if (is_named) {
+    progress_(fmt::format("so far {}: {:.2f} to {:.2f} floors", diagnosis.ladder.back().name,
+                          judged(diagnosis.ladder.front().stage.estimate, data_),
+                          judged(diagnosis.final_stage.estimate, data_)),
+              1.0);
   }
   diagnosis.leads.clear();
   for (const RankRow& row : rows) {
@@ -229,7 +241,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   if (round == 0) {
     first_ = std::move(tried);
   }
-  return choice.named >= 0;
+  return is_named;
 }
 
 }  // namespace plumbline::validation
