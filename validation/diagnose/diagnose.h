@@ -24,6 +24,9 @@ struct DiagnoseOptions {
   double nothing = 1.1;          ///< error below which nothing is missing where nothing was named
   double finished = 1.2;         ///< error below which what was named is an answer
   double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
+  double far = 3.0;              ///< error from which more is missing than an effect
+  double consistent_far = 1.0;   ///< the same disagreement there: the held-out motion must not ask for none
+  double hopeless = 20.0;        ///< error after several effects above which no pair is looked for
   double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
   std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;

@@ -110,6 +110,7 @@ void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
 
 void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
   Diagnosis anew;
+  anew.lost = std::move(diagnosis.lost);
   anew.ladder = ladder;
   anew.bare_rungs = ladder.size();
   anew.final_stage = ladder.back().stage;
@@ -117,6 +118,11 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 }
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
+  constexpr double kWorse = 1.2;
+  if (judged(fitted.stage.estimate, data_) > kWorse * judged(given.stage.estimate, data_)) {
+    look(options_.most_effects, diagnosis);  // values that do not hold on the other motion are none of the robot
+    return;
+  }
   if (!explains_much(given, fitted)) {
     look(options_.most_as_stated, diagnosis);
     if (!speaks_for_stated(diagnosis)) {
@@ -133,6 +139,7 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
   Tried first = std::move(first_);
   Diagnosis stated;
+  stated.lost = diagnosis.lost;
   restart({given}, stated);
   look(options_.most_as_stated, stated);
   if (speaks_for_stated(stated)) {

@@ -181,10 +181,12 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   if (share < options.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
   }
+  // Far above the floor every strength is a compromise with what else is missing.
+  const bool is_far = !is_below(options.far, refit.estimate, data);
   return unless_unsteady([&]() -> std::string {
     for (const int effect : refit.added) {
       const double apart = disagreement(refit, effect, data);
-      if (apart > options.consistent) {
+      if (apart > (is_far ? options.consistent_far : options.consistent)) {
         return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
       }
     }
