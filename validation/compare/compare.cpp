@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/model/kinds.h"
 
@@ -25,7 +26,7 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
       }
     }
     for (std::size_t c = 0; c < trial.measured.size(); ++c) {
-      const model::Sensor& sensor = *model.find_sensor(trial.measured[c].sensor);
+      const model::Sensor sensor = sensor_of(model, trial.measured[c]);
       ChannelError error;
       error.trial = trial.name;
       error.name = sensor.name;
@@ -70,14 +71,17 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
 }  // namespace
 
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}};
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}};
 }
 
 Comparison compare(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
+  std::vector<LostWindow> lost;
+  const Data kept = without_lost(model, data, lost);
+  PredictorPool pool(model, kept);
   const Estimate estimate = estimate_states(pool);
-  Comparison comparison = compare(model, data, estimate);
+  Comparison comparison = compare(model, kept, estimate);
   comparison.phases = phase_errors(pool, {}, estimate);
+  comparison.lost = std::move(lost);
   return comparison;
 }
 

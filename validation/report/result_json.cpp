@@ -99,6 +99,10 @@ nlohmann::json to_json(const Comparison& comparison) {
                                {"ratio", w.ratio},
                                {"worst_channel", w.worst_channel}});
   }
+  json["lost"] = nlohmann::json::array();
+  for (const LostWindow& w : comparison.lost) {
+    json["lost"].push_back({{"trial", w.trial}, {"from", w.from}, {"to", w.to}, {"reason", w.reason}});
+  }
   json["phases"] = nlohmann::json::array();
   for (const PhaseError& p : comparison.phases) {
     json["phases"].push_back({{"trial", p.trial},

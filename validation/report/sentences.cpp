@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/diagnose/own_parameters.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -27,47 +29,83 @@ Judged judged(double train, double held_out) {
   return held_out > 0.0 ? Judged{"held-out", held_out} : Judged{"train", train};
 }
 
-Judged judged(const Rung& rung) { return judged(rung.train(), rung.foretold()); }
+Judged judged(const Rung& rung) { return judged(rung.train(), rung.held_out()); }
+
+/// Model parameters that the fit moved by a deviation or more, the farthest first: "mass of arm by +2.2
+/// deviations"; empty where none did.
+std::string moved_parameters(const Diagnosis& diagnosis) {
+  constexpr double kMoved = 1.0;
+  constexpr std::size_t kShown = 3;
+  std::vector<OwnParameter> moved = own_values(diagnosis.final_stage);
+  moved.erase(std::remove_if(moved.begin(), moved.end(),
+                             [](const OwnParameter& one) { return std::abs(one.shift()) < kMoved; }),
+              moved.end());
+  std::stable_sort(moved.begin(), moved.end(), [](const OwnParameter& a, const OwnParameter& b) {
+    return std::abs(a.shift()) > std::abs(b.shift());
+  });
+  std::string said;
+  for (std::size_t i = 0; i < std::min(kShown, moved.size()); ++i) {
+    said += fmt::format("{}{} by {:+.1f} deviations", i == 0 ? "" : ", ", moved[i].label, moved[i].shift());
+  }
+  if (moved.size() > kShown) {
+    said += fmt::format(" and {} more", moved.size() - kShown);
+  }
+  return said;
+}
+
+/// "The held-out error falls from 151.2 to 65.5 times the floor; this explains 81 % of the squared error above
+/// the floor."
+std::string fall_sentence(const Diagnosis& diagnosis) {
+  const Judged first = judged(diagnosis.ladder.front());
+  const Judged last = judged(diagnosis.ladder.back());
+  const double before = first.error * first.error - 1.0;
+  const double after = std::max(last.error * last.error - 1.0, 0.0);
+  const std::string share =
+      before > after && before > 0.0
+          ? fmt::format(": {:.1f} % of the squared error above the floor is explained", 100.0 * (1.0 - after / before))
+          : "";
+  return fmt::format("the {} error {} from {:.2f} to {:.2f} times the floor{}.", last.role,
+                     last.error <= first.error ? "falls" : "rises", first.error, last.error, share);
+}
 
 std::string whole_summary(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::missing && diagnosis.accepted.size() == 1) {
     return finding_sentences(diagnosis.accepted.front(), diagnosis.verdict);
   }
-  const Judged first = judged(diagnosis.ladder.front());
-  const Judged last = judged(diagnosis.ladder.back());
   if (diagnosis.verdict == Verdict::missing) {
-    return fmt::format(
-        "Missing: {}. With them the {} error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
-        "the squared error above the floor stays unexplained.",
-        names_of(diagnosis.accepted), last.role, first.error, last.error,
-        100.0 * diagnosis.unexplained_share);
+    return fmt::format("Missing: {}. With them {}", names_of(diagnosis.accepted), fall_sentence(diagnosis));
   }
-  if (diagnosis.accepted.empty()) {
-    return verdict_sentence(diagnosis);
-  }
-  return fmt::format(
-      "Unexplained: the {} error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
-      "but {} not the whole answer.",
-      last.role, last.error, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "",
-      first.error, diagnosis.accepted.size() == 1 ? "is" : "are");
+  return verdict_sentence(diagnosis);
 }
 
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& diagnosis) {
   const Judged last = judged(diagnosis.ladder.back());
+  const std::string moved = moved_parameters(diagnosis);
   switch (diagnosis.verdict) {
     case Verdict::nothing_missing:
+      if (!moved.empty()) {
+        return fmt::format(
+            "Nothing is missing, but model parameters are off: {}. With the values fitted {}", moved,
+            fall_sentence(diagnosis));
+      }
       return fmt::format(
           "Nothing is missing: the model predicts the {} motion to {:.2f} times what the sensors "
           "alone would leave.",
           last.role, last.error);
     case Verdict::unexplained:
+      if (!diagnosis.accepted.empty()) {
+        return fmt::format("Found: {}, a part of what is missing. With {} {} No effect of the catalogue explains "
+                           "the rest.",
+                           names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "it" : "them",
+                           fall_sentence(diagnosis));
+      }
       return fmt::format(
           "Unexplained: the {} error stays {:.2f} times the floor, and no effect of the catalogue "
           "explains it.{}",
           last.role, last.error,
-          diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
+          moved.empty() ? "" : " Model parameters moved: " + moved + "; " + fall_sentence(diagnosis));
     case Verdict::missing:
       break;
   }
