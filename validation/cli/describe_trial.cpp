@@ -43,7 +43,7 @@ json to_json(const Trial& trial, const Model& model, const Freedom& freedom) {
                                {"column_unit", channel.unit},
                                {"unit", reading_unit(model, channel.sensor)},
                                {"rms", rms(channel.values)},
-                               {"floor", model.find_sensor(channel.sensor)->floor()}});
+                               {"floor", sensor_of(model, channel).floor()}});
   }
   out["contact_events"] = json::array();
   for (const validation::ContactEvent& event : trial.contact_events) {
@@ -80,7 +80,7 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
     const std::string unit = reading_unit(model, channel.sensor);
     rows.push_back({"sensor " + channel.sensor, channel.column, channel.unit,
                     fmt::format("{:.4g} {}", rms(channel.values), unit),
-                    fmt::format("{:.3g} {}", model.find_sensor(channel.sensor)->floor(), unit)});
+                    fmt::format("{:.3g} {}", sensor_of(model, channel).floor(), unit)});
   }
   for (std::size_t r = 0; r < trial.switches.size(); ++r) {
     const auto events = std::count_if(

@@ -25,7 +25,7 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
       }
     }
     for (std::size_t c = 0; c < trial.measured.size(); ++c) {
-      const model::Sensor& sensor = *model.find_sensor(trial.measured[c].sensor);
+      const model::Sensor sensor = sensor_of(model, trial.measured[c]);
       ChannelError error;
       error.trial = trial.name;
       error.name = sensor.name;

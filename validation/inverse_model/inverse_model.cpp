@@ -205,7 +205,7 @@ double NeededForce::error_percent() const {
 InverseModel inverse_model(const model::Model& model, const Trial& trial,
                            const InverseModelOptions& options) {
   InverseModel result;
-  model::Plant plant(model, trial.locks);
+  model::Plant plant(as_recorded(model, trial), trial.locks);
   const Eigen::MatrixXd map = motor_map(plant);
   const std::vector<int> moving = moving_motors(map);
   result.not_available = no_inverse(plant, moving, trial);

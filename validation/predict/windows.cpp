@@ -30,13 +30,13 @@ void FreeParameter::set(model::Plant& plant, double value) const {
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
     : trial_(trial),
       options_(options),
-      plant_(model, trial.locks),
+      plant_(as_recorded(model, trial), trial.locks),
       from_channels_(plant_, start_observations(plant_, trial)) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     const int s = model.sensor_index(trial.measured[c].sensor);
     sensor_of_channel_.push_back(s);
-    const model::Sensor& sensor = model.sensors[static_cast<std::size_t>(s)];
+    const model::Sensor& sensor = plant_.model().sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
     if (!sensor.is_force_plate()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));

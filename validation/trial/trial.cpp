@@ -75,7 +75,8 @@ void read_signals(const TrialFile& file, const model::Model& model, const Table&
     if (use.zero) {
       signal.values = without_zero(signal.values, rows_of(*use.zero, trial.time));
     }
-    trial.measured.push_back({use.sensor, use.column.name, signal.unit, std::move(signal.values)});
+    trial.measured.push_back({use.sensor, use.column.name, signal.unit, std::move(signal.values),
+                              use.resolution, use.noise, use.offset_uncertainty});
   }
   for (const CommandUse& use : file.commands) {
     Signal signal = read_signal(table, use.column);

@@ -17,10 +17,15 @@ std::string to_string(Role role);
 
 /// A channel measured by one of the model's sensors.
 struct Measured {
-  std::string sensor;      ///< name of a sensor of the model
-  std::string column;      ///< column in the data file
-  std::string unit;        ///< as declared
-  Eigen::VectorXd values;  ///< SI
+  std::string sensor;                  ///< name of a sensor of the model
+  std::string column;                  ///< column in the data file
+  std::string unit;                    ///< as declared
+  Eigen::VectorXd values;              ///< SI
+  std::optional<double> resolution{};  ///< of this record in place of the model's sensor's, SI
+  std::optional<double> noise{};       ///< standard deviation, likewise
+  /// One standard deviation of a constant zero error of this record, SI; 0: none. A nuisance: an estimate may
+  /// move the channel by one constant in the whole trial, at this cost.
+  double offset_uncertainty = 0.0;
 };
 
 /// A contact switch's record: 1 closed, 0 open.
@@ -91,6 +96,12 @@ struct Trial {
 
   Eigen::Index samples() const { return time.size(); }
 };
+
+/// The model's sensor with the resolution and noise that the record states instead.
+model::Sensor sensor_of(const model::Model& model, const Measured& measured);
+
+/// The model with the sensors as this trial's records state them.
+model::Model as_recorded(const model::Model& model, const Trial& trial);
 
 /// Standard deviation of a contact event's time when it may lie anywhere in a sample period: T/sqrt(12).
 double timing_floor(const Trial& trial);

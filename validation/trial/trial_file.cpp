@@ -49,12 +49,13 @@ void check_measured(const YamlNode& node, const std::string& name, const Model& 
 }
 
 ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
-                      const std::string& further_key = "") {
+                      const std::vector<std::string>& further_keys = {}) {
   if (!node.is_map()) {
     node.refuse("a map {column: ..., unit: " + expected_unit + "}");
   }
-  node.allow_keys(further_key.empty() ? std::vector<std::string>{"column", "unit"}
-                                      : std::vector<std::string>{"column", "unit", further_key});
+  std::vector<std::string> keys{"column", "unit"};
+  keys.insert(keys.end(), further_keys.begin(), further_keys.end());
+  node.allow_keys(keys);
   ColumnUse use;
   use.name = node.at("column").text();
   use.place = node.at("column").place();
@@ -85,13 +86,26 @@ Section read_section(const YamlNode& node) {
   return section;
 }
 
+std::optional<double> read_not_negative(const YamlNode& node, const std::string& key, const std::string& unit,
+                                        const std::string& owner) {
+  const auto given = node.find(key);
+  if (!given) {
+    return std::nullopt;
+  }
+  const double value = read_physical(*given, unit, owner);
+  if (value < 0.0) {
+    given->refuse("a value below zero", "zero or more");
+  }
+  return value;
+}
+
 /// A column of its own, or the column of a force and the force above which the switch counts as closed.
 MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
   const auto above = node.is_map() ? node.find("above") : std::nullopt;
   if (!above) {
     return {name, read_column(node, "1", "contact switch " + name)};
   }
-  MeasuredUse use{name, read_column(node, "N", "the force at contact switch " + name, "above")};
+  MeasuredUse use{name, read_column(node, "N", "the force at contact switch " + name, {"above"})};
   use.above = read_physical(*above, "N", "the force at contact switch " + name);
   return use;
 }
@@ -99,12 +113,25 @@ MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
 MeasuredUse read_sensor(const YamlNode& node, const std::string& name, const Model& model) {
   check_measured(node, name, model);
   const std::string unit = model::reading_unit(model, name);
-  if (!model.find_sensor(name)->is_force_plate()) {
-    return {name, read_column(node, unit, "sensor " + name)};
+  const bool plate = model.find_sensor(name)->is_force_plate();
+  const std::string owner = (plate ? "force plate " : "sensor ") + name;
+  std::vector<std::string> keys{"resolution", "noise", "offset_uncertainty"};
+  if (plate) {
+    keys.emplace_back("zero");
   }
-  MeasuredUse use{name, read_column(node, unit, "force plate " + name, "zero")};
+  MeasuredUse use{name, read_column(node, unit, owner, keys)};
   if (const auto zero = node.find("zero")) {
     use.zero = read_section(*zero);
+  }
+  use.resolution = read_not_negative(node, "resolution", unit, owner);
+  use.noise = read_not_negative(node, "noise", unit, owner);
+  use.offset_uncertainty = read_not_negative(node, "offset_uncertainty", unit, owner).value_or(0.0);
+  const model::Sensor& sensor = *model.find_sensor(name);
+  const bool stated = use.resolution || use.noise;
+  if (stated && use.resolution.value_or(sensor.resolution) == 0.0 &&
+      use.noise.value_or(sensor.noise) == 0.0) {
+    node.refuse("neither resolution nor noise above zero",
+                "one of them: together they are the channel's floor");
   }
   return use;
 }

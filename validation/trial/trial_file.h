@@ -30,8 +30,11 @@ struct Section {
 struct MeasuredUse {
   std::string sensor;
   ColumnUse column;
-  std::optional<Section> zero{};  ///< of a force plate: when nothing stood on it
-  std::optional<double> above{};  ///< of a contact switch that is read off a force: closed above it, N
+  std::optional<Section> zero{};       ///< of a force plate: when nothing stood on it
+  std::optional<double> above{};       ///< of a contact switch that is read off a force: closed above it, N
+  std::optional<double> resolution{};  ///< of this record in place of the model's, SI
+  std::optional<double> noise{};
+  double offset_uncertainty = 0.0;  ///< SI
 };
 struct CommandUse {
   std::string motor;

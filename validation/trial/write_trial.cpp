@@ -65,11 +65,33 @@ class TrialWriter {
  private:
   void entry(const char* key, const std::string& value) { out_ << YAML::Key << key << YAML::Value << value; }
 
-  /// The column goes to the table, its name and unit to trial.yaml.
-  void column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
+  /// The column goes to the table, its name and unit to trial.yaml; the map stays open.
+  void begin_column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
     table_.columns.push_back({name, unit, si / to_si_factor(unit)});
     out_ << YAML::Flow << YAML::BeginMap << YAML::Key << "column" << YAML::Value << name << YAML::Key
-         << "unit" << YAML::Value << unit << YAML::EndMap;
+         << "unit" << YAML::Value << unit;
+  }
+
+  void column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
+    begin_column(name, unit, si);
+    out_ << YAML::EndMap;
+  }
+
+  void write_sensor(const Measured& measured) {
+    const std::string unit = model::reading_unit(model_, measured.sensor);
+    out_ << YAML::Key << measured.sensor << YAML::Value;
+    begin_column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
+                 or_else(measured.unit, unit), measured.values);
+    if (measured.resolution) {
+      quantity("resolution", *measured.resolution, unit, "");
+    }
+    if (measured.noise) {
+      quantity("noise", *measured.noise, unit, "");
+    }
+    if (measured.offset_uncertainty > 0.0) {
+      quantity("offset_uncertainty", measured.offset_uncertainty, unit, "");
+    }
+    out_ << YAML::EndMap;
   }
 
   void quantity(const char* key, double value, const std::string& unit, const std::string& source) {
@@ -97,9 +119,7 @@ class TrialWriter {
   void write_measured() {
     out_ << YAML::Key << "measured" << YAML::Value << YAML::BeginMap;
     for (const Measured& measured : trial_.measured) {
-      out_ << YAML::Key << measured.sensor << YAML::Value;
-      column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
-             or_else(measured.unit, model::reading_unit(model_, measured.sensor)), measured.values);
+      write_sensor(measured);
     }
     for (const SwitchRecord& record : trial_.switches) {
       out_ << YAML::Key << record.name << YAML::Value;
