@@ -64,12 +64,14 @@ void read_signals(const TrialFile& file, const model::Model& model, const Table&
   for (const MeasuredUse& use : file.measured) {
     Signal signal = read_signal(table, use.column);
     if (use.above) {
-      trial.switches.push_back({use.sensor, use.column.name, closed_above(signal.values, *use.above)});
+      trial.switches.push_back(record_of(*model.find_switch(use.sensor), use.column.name,
+                                         closed_above(signal.values, *use.above)));
       continue;
     }
     if (model.find_switch(use.sensor) != nullptr) {
       check_switch(table, use.column, signal.values);
-      trial.switches.push_back({use.sensor, use.column.name, std::move(signal.values)});
+      trial.switches.push_back(
+          record_of(*model.find_switch(use.sensor), use.column.name, std::move(signal.values)));
       continue;
     }
     if (use.zero) {
