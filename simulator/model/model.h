@@ -48,6 +48,7 @@ struct Joint {
   Arc arc;  ///< of a prismatic joint, in J
   /// What the skeleton file itself says under <dynamics>: N m s/rad and N m (N s/m and N); 0: nothing.
   double damping = 0.0, friction = 0.0;
+  double armature = 0.0;  ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
 };
 
 struct Skeleton {
@@ -55,6 +56,7 @@ struct Skeleton {
   std::vector<Body> bodies;   ///< parents before children
   std::vector<Joint> joints;  ///< one for each body (bodies fixed to the world have a fixed joint)
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
+  std::vector<std::string> left_out{};  ///< what the file says and nobody takes over, a sentence each
 };
 
 /// factor * (joint, pulley or coordinate position)

@@ -16,14 +16,14 @@ constexpr const char* kFormat = "model/1";
 
 std::string skeleton_path(const YamlNode& node) {
   const std::string extension = fs::path(node.text()).extension().string();
-  if (extension != ".sdf" && extension != ".urdf") {
-    node.refuse("a file name that ends in .sdf or .urdf");
+  if (extension != ".sdf" && extension != ".urdf" && extension != ".xml") {
+    node.refuse("a file name that ends in .sdf, .urdf or .xml (MJCF)");
   }
   std::string path = beside(node.file(), node.text());
   std::error_code missing;
   if (!fs::is_regular_file(path, missing)) {
     node.refuse(quote(node.text()) + ", where there is no file",
-                "the path of a .sdf or .urdf, relative to this file");
+                "the path of a .sdf, .urdf or .xml, relative to this file");
   }
   return path;
 }

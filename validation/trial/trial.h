@@ -58,9 +58,10 @@ struct Command {
 using model::Lock;
 
 /// A controller that ran on the robot and is known: u = velocity_gain (position_gain (r - y) - dy/dt) +
-/// disturbance.
+/// disturbance of a cascade_pd; u = position_gain (r - y) + velocity_gain (dr/dt - dy/dt) + disturbance of a
+/// pd, whose position_gain is in command units per position unit.
 struct Controller {
-  std::string kind;  ///< "cascade_pd"
+  std::string kind;  ///< "cascade_pd" or "pd"
   std::string motor;
   std::string sensor;
   double position_gain = 0.0;   ///< 1/s
