@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/from_data_sheets.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
 #include "simulator/trace/units.h"
@@ -93,6 +94,13 @@ std::string read_command_unit(const YamlNode& node, bool angular) {
 /// volt.
 void read_torque_constant(const YamlNode& node, Motor& motor) {
   const std::optional<YamlNode> given = node.find("torque_constant");
+  if (const auto winding = node.find("winding")) {
+    if (given) {
+      given->refuse("a torque constant beside a winding", "one of them: a winding has its own");
+    }
+    read_winding(*winding, motor);
+    return;
+  }
   if (!given && commands_force(motor)) {
     motor.torque_constant = one("the command is a torque or force");
     return;
@@ -118,7 +126,7 @@ void read_torque_constant(const YamlNode& node, Motor& motor) {
 
 Motor read_motor(const std::string& name, const YamlNode& node) {
   check_name(name, node);
-  node.allow_keys({"command_unit", "rotor_inertia", "torque_constant", "torque_limit"});
+  node.allow_keys({"command_unit", "rotor_inertia", "torque_constant", "winding", "torque_limit"});
   Motor motor;
   motor.name = name;
   const YamlNode inertia = node.at("rotor_inertia");

@@ -29,6 +29,7 @@ model::Model as_recorded(const model::Model& model, const Trial& trial) {
       take_over(measured, recorded.sensors[static_cast<std::size_t>(index)]);
     }
   }
+  recorded.effects.insert(recorded.effects.end(), trial.configuration.begin(), trial.configuration.end());
   return recorded;
 }
 

@@ -27,15 +27,19 @@ struct Rows {
   Eigen::Index first = 0, count = 0;
 };
 
+[[noreturn]] void refuse_section(const Section& section, const Eigen::VectorXd& time) {
+  throw InputError(section.place, number_text(section.from) + " to " + number_text(section.to) + " s",
+                   "a stretch of the recording, which lasts from " + number_text(time[0]) + " to " +
+                       number_text(time[time.size() - 1]) + " s");
+}
+
 Rows rows_of(const Section& section, const Eigen::VectorXd& time) {
   const double* begin = time.data();
   const double* end = begin + time.size();
   const double* from = std::lower_bound(begin, end, section.from);
   const double* to = std::lower_bound(begin, end, section.to);
   if (from == to || section.to > time[time.size() - 1]) {
-    throw InputError(section.place, number_text(section.from) + " to " + number_text(section.to) + " s",
-                     "a stretch of the recording, which lasts from " + number_text(time[0]) + " to " +
-                         number_text(time[time.size() - 1]) + " s");
+    refuse_section(section, time);
   }
   return {from - begin, to - from};
 }
@@ -165,7 +169,9 @@ class TrialReader {
       gaps_.push_back({behind, end});
     }
     for (const Section& left : file_.left_out) {
-      rows_of(left, trial_.time);
+      if (left.to < trial_.time[0] || left.from > trial_.time[trial_.samples() - 1]) {
+        refuse_section(left, trial_.time);
+      }
       gaps_.push_back({left.from - 2.0 * grid_.hair(), left.to + 2.0 * grid_.hair()});
     }
     if (gaps_.empty()) {
@@ -267,6 +273,7 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
   trial.model_file = file.model_file;
   trial.role = file.role;
   trial.locks = file.locks;
+  trial.configuration = file.configuration;
   trial.events = file.events;
   trial.data_file = data_path(file, options.data_folder);
   trial.start = file.start;

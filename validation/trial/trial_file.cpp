@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <set>
 
+#include "simulator/model/effect_list.h"
 #include "simulator/model/kinds.h"
+#include "simulator/model/known_effects.h"
 #include "simulator/model/quantity.h"
 #include "simulator/model/yaml_chain.h"
 #include "simulator/trace/units.h"
@@ -386,6 +388,23 @@ std::vector<ControllerUse> read_controllers(const YamlNode& node, const Model& m
   return uses;
 }
 
+/// Effects that the robot had in this trial alone. Their states and released ratios would make another state of
+/// the robot's.
+std::vector<model::EffectUse> read_configuration(const YamlNode& node, const Model& model) {
+  node.allow_keys({"effects"});
+  Model changed = model;
+  changed.effects.clear();
+  const std::vector<YamlNode> items = node.at("effects").items();
+  model::read_effects(node.at("effects"), model::known_effects(), changed);
+  for (std::size_t i = 0; i < changed.effects.size(); ++i) {
+    const model::EffectUse& use = changed.effects[i];
+    if (use.law->state_count() > 0 || model.resolve(*use.law, use.at) == effects::Place::ratio) {
+      items[i].refuse(use.label() + ", which adds a state", "a payload, a spring or another effect without states");
+    }
+  }
+  return changed.effects;
+}
+
 std::vector<double> read_events(const YamlNode& node) {
   std::vector<double> events;
   for (const YamlNode& item : node.items()) {
@@ -515,7 +534,7 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   check_format(root, "trial/1");
   root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "columns", "section",
                    "leave_out", "missing", "time", "clock_shift_uncertainty", "commands", "measured",
-                   "locked", "start", "controllers", "events"});
+                   "locked", "configuration", "start", "controllers", "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -552,6 +571,9 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   }
   if (const auto locked = root.find("locked")) {
     file.locks = read_locks(*locked, model);
+  }
+  if (const auto configuration = root.find("configuration")) {
+    file.configuration = read_configuration(*configuration, model);
   }
   if (const auto controllers = root.find("controllers")) {
     file.controllers = read_controllers(*controllers, model);

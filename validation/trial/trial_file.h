@@ -81,6 +81,7 @@ struct TrialFile {
   std::vector<CommandUse> commands;
   std::vector<ControllerUse> controllers;
   std::vector<Lock> locks;
+  std::vector<model::EffectUse> configuration;
   std::vector<Start> start;
   std::vector<double> events;
 };
