@@ -21,14 +21,13 @@ double share(const Quantity& quantity) { return quantity.uncertainty / quantity.
 
 Winding winding_of(const YamlNode& node, bool angular) {
   node.allow_keys({"resistance", "torque_constant", "back_emf"});
-  const std::string speed = position_unit(angular) + "/s";
   Winding winding;
   winding.resistance = read_quantity(node.at("resistance"), {"ohm", Sign::positive, false, {}});
   winding.torque_constant =
       read_quantity(node.at("torque_constant"), {force_unit(angular) + "/A", Sign::positive, false, {}});
   winding.back_emf = winding.torque_constant;  // the same number in SI
   if (const auto given = node.find("back_emf")) {
-    winding.back_emf = read_quantity(*given, {"V/(" + speed + ")", Sign::not_negative, false, {}});
+    winding.back_emf = read_quantity(*given, {"V s/" + position_unit(angular), Sign::not_negative, false, {}});
   }
   return winding;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -71,10 +72,18 @@ class MjcfReader {
     throw InputError({file_, element.GetLineNum(), name != nullptr ? name : element.Name()}, found, expected);
   }
 
-  void read_settings() {
-    if (const XMLElement* include = root_->FirstChildElement("include")) {
-      refuse(*include, "an included file", "everything in one file (MuJoCo's compile writes one)");
+  void refuse_includes(const XMLElement& element) const {
+    for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      if (std::string(child->Name()) == "include") {
+        refuse(*child, "an included file", "everything in one file (MuJoCo's compile writes one)");
+      }
+      refuse_includes(*child);
     }
+  }
+
+  void read_settings() {
+    refuse_includes(*root_);
     for (const XMLElement* compiler = root_->FirstChildElement("compiler"); compiler != nullptr;
          compiler = compiler->NextSiblingElement("compiler")) {
       if (const char* angle = compiler->Attribute("angle")) {
@@ -417,9 +426,13 @@ class MjcfReader {
     struct Part {
       const char *name, *advice;
     };
-    for (const Part& part :
-         {Part{"actuator", "state them as `motors` of the model file"}, {"tendon", ""}, {"equality", ""},
-          {"contact", ""}, {"sensor", "state them as `sensors` of the model file"}, {"keyframe", ""}}) {
+    const std::array<Part, 6> parts{{{"actuator", "state them as `motors` of the model file"},
+                                     {"tendon", ""},
+                                     {"equality", ""},
+                                     {"contact", ""},
+                                     {"sensor", "state them as `sensors` of the model file"},
+                                     {"keyframe", ""}}};
+    for (const Part& part : parts) {
       const XMLElement* section = root_->FirstChildElement(part.name);
       if (section != nullptr && section->FirstChildElement() != nullptr) {
         int count = 0;

@@ -1,4 +1,5 @@
 // JSON lines, and JSON files that are one list of objects or one object of lists.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -117,7 +118,7 @@ bool is_object_of_lists(const json& value) {
 void add_lists(const json& lists, Collector& collector) {
   std::size_t longest = 0;
   for (const auto& [key, list] : lists.items()) {
-    longest = std::max(longest, list.is_array() ? list.size() : 0);
+    longest = std::max(longest, list.is_array() ? list.size() : std::size_t{0});
   }
   for (std::size_t row = 0; row < longest; ++row) {
     json record;

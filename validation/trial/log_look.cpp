@@ -1,10 +1,12 @@
 #include "validation/trial/log_look.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 #include <set>
+#include <utility>
 
 #include "simulator/trace/units.h"
 
@@ -89,6 +91,8 @@ void look_at_unit(ColumnLook& column) {
     role = ColumnRole::force;
   } else if (is("s") && role != ColumnRole::time) {
     role = ColumnRole::other;
+  } else if (role == ColumnRole::other && (is("m") || column.unit == "rad" || column.unit == "deg")) {
+    role = ColumnRole::position;
   }
   if (role != column.role && column.role != ColumnRole::reference) {
     column.role = role;
@@ -152,7 +156,8 @@ std::string unit_of_time(const ColumnLook& column, double first, double step) {
     }
   }
   // Seconds since 1970 are between 10^9 and 10^10 in this century.
-  for (const auto& [unit, scale] : {std::pair<const char*, double>{"ns", 1e18}, {"us", 1e15}, {"ms", 1e12}}) {
+  const std::array<std::pair<const char*, double>, 3> absolute{{{"ns", 1e18}, {"us", 1e15}, {"ms", 1e12}}};
+  for (const auto& [unit, scale] : absolute) {
     if (first > scale && first < 10.0 * scale) {
       return unit;
     }
@@ -191,6 +196,10 @@ void look_at_time(const LogFile& log, LogLook& look) {
         steps.push_back(time[k] - time[k - 1]);
       }
     }
+  }
+  if (steps.empty()) {
+    look.time = -1;
+    return;
   }
   std::sort(steps.begin(), steps.end());
   const double median = steps[steps.size() / 2];
