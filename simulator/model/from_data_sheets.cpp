@@ -27,7 +27,8 @@ Winding winding_of(const YamlNode& node, bool angular) {
       read_quantity(node.at("torque_constant"), {force_unit(angular) + "/A", Sign::positive, false, {}});
   winding.back_emf = winding.torque_constant;  // the same number in SI
   if (const auto given = node.find("back_emf")) {
-    winding.back_emf = read_quantity(*given, {"V s/" + position_unit(angular), Sign::not_negative, false, {}});
+    winding.back_emf =
+        read_quantity(*given, {"V s/" + position_unit(angular), Sign::not_negative, false, {}});
   }
   return winding;
 }
@@ -43,8 +44,7 @@ EffectUse effect_of(const Model& model, const effects::Catalogue& catalogue, con
     const auto index = static_cast<std::size_t>(i);
     Quantity quantity;
     const bool usual = use.law->declaration().parameters[index].structural && !starts.empty();
-    quantity.value =
-        usual ? starts.front()[index] : use.law->declaration().parameters[index].null_value;
+    quantity.value = usual ? starts.front()[index] : use.law->declaration().parameters[index].null_value;
     const bool angular = is_angular(model, at);
     quantity.unit = effects::unit_at(use.law->declaration().parameters[index].unit, angular);
     quantity.source = "the law's usual value";
@@ -66,7 +66,8 @@ void set(EffectUse& use, const char* parameter, double value, double uncertainty
 const Coordinate* coordinate_of(const Model& model, const std::string& joint) {
   const auto found =
       std::find_if(model.coordinates.begin(), model.coordinates.end(), [&](const Coordinate& one) {
-        return one.terms.size() == 1 && one.terms.front().of == joint && std::abs(one.terms.front().factor) == 1.0;
+        return one.terms.size() == 1 && one.terms.front().of == joint &&
+               std::abs(one.terms.front().factor) == 1.0;
       });
   return found == model.coordinates.end() ? nullptr : &*found;
 }
@@ -112,7 +113,8 @@ void add_back_emf(const YamlNode& motors, const effects::Catalogue& catalogue, M
     for (const EffectUse& other : model.effects) {
       if (other.at == name && other.law->declaration().name == "viscous") {
         node->refuse("a winding at motor " + name + ", which has the effect viscous, too",
-                     "the friction of its bearings at the coordinate, or no winding: the back EMF is viscous friction");
+                     "the friction of its bearings at the coordinate, or no winding: the back EMF is viscous "
+                     "friction");
       }
     }
     model.effects.push_back(std::move(use));
@@ -134,9 +136,9 @@ void take_joint_dynamics(const YamlNode& node, const effects::Catalogue& catalog
     }
     const Coordinate* coordinate = coordinate_of(model, joint.name);
     if (coordinate == nullptr) {
-      node.refuse("take, with damping or friction of joint " + joint.name +
-                      ", which no coordinate alone stands for",
-                  "a coordinate {of: {" + joint.name + ": 1}}, or joint_dynamics: leave");
+      node.refuse(
+          "take, with damping or friction of joint " + joint.name + ", which no coordinate alone stands for",
+          "a coordinate {of: {" + joint.name + ": 1}}, or joint_dynamics: leave");
     }
     if (joint.damping > 0.0) {
       EffectUse use = effect_of(model, catalogue, "viscous", coordinate->name);

@@ -30,7 +30,8 @@ class MjcfReader {
     const std::string text = read_text(path);
     if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       throw InputError({file_, document_.ErrorLineNum(), ""},
-                       std::string("text that is no XML (") + document_.ErrorName() + ")", "a whole MJCF file");
+                       std::string("text that is no XML (") + document_.ErrorName() + ")",
+                       "a whole MJCF file");
     }
     const XMLElement* root = document_.RootElement();
     if (root == nullptr || std::string(root->Name()) != "mujoco") {
@@ -182,7 +183,8 @@ class MjcfReader {
     }
     if (given("zaxis") != nullptr) {
       const std::vector<double> a = take("zaxis", 3);
-      return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(a[0], a[1], a[2])).toRotationMatrix();
+      return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(a[0], a[1], a[2]))
+          .toRotationMatrix();
     }
     return Matrix3d::Identity();
   }
@@ -295,7 +297,8 @@ class MjcfReader {
                                    " (stiffness, springref): state it as the effect `spring`.");
     }
     if (number(element, "ref", childclass, 0.0) != 0.0) {
-      refuse(element, "ref, another zero of the joint", "0: the zero of the file's pose; sensors have an `offset`");
+      refuse(element, "ref, another zero of the joint",
+             "0: the zero of the file's pose; sensors have an `offset`");
     }
     limits_ += defaults_.attribute(element, "range", childclass) != nullptr ? 1 : 0;
     return joint;
@@ -342,8 +345,8 @@ class MjcfReader {
           Eigen::SelfAdjointEigenSolver<Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
       if (!(principal[0] >= 0.0) || principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6) + kNothing) {
         refuse(inertial,
-               "principal moments " + number_text(principal[0], 6) + ", " + number_text(principal[1], 6) + ", " +
-                   number_text(principal[2], 6) + " kg m^2",
+               "principal moments " + number_text(principal[0], 6) + ", " + number_text(principal[1], 6) +
+                   ", " + number_text(principal[2], 6) + " kg m^2",
                "moments above zero, none larger than the sum of the other two");
       }
     }
@@ -362,8 +365,9 @@ class MjcfReader {
       }
       if (kind == "mesh" || kind == "hfield" || kind == "plane") {
         if (kind == "mesh") {
-          refuse(*geom, "a mesh that has to give the inertia of body " + body.name,
-                 "<inertial> in the body (MuJoCo's compile writes it), or mass=\"0\" for a shape without mass");
+          refuse(
+              *geom, "a mesh that has to give the inertia of body " + body.name,
+              "<inertial> in the body (MuJoCo's compile writes it), or mass=\"0\" for a shape without mass");
         }
         continue;
       }

@@ -24,7 +24,7 @@ std::mutex& quiet_sdformat() {
 
 void load(SkeletonXml& xml, UrdfShapes shapes, const std::function<void(const LoadedSdf&)>& use) {
   sdf::Root root;
-  refuse_errors(xml.is_urdf()         ? root.LoadSdfString(xml.urdf_for_sdformat(shapes))
+  refuse_errors(xml.is_urdf()        ? root.LoadSdfString(xml.urdf_for_sdformat(shapes))
                 : xml.has_massless() ? root.LoadSdfString(xml.text())
                                      : root.Load(xml.file()),
                 xml);

@@ -162,8 +162,7 @@ LogFile read_hdf5_log(const std::string& path, const std::vector<std::string>& w
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   std::vector<std::string> paths;
-  if (!file.is_open() ||
-      H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_path, &paths, H5O_INFO_BASIC) < 0) {
+  if (!file.is_open() || H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_path, &paths, H5O_INFO_BASIC) < 0) {
     throw InputError({path, 0, ""}, "something that is no whole HDF5 file", "an HDF5 file");
   }
   std::vector<Dataset> tables;

@@ -33,7 +33,8 @@ LogFile from_matlab(const std::string& path) {
     for (Eigen::Index k = 0; k < column.values.size(); ++k) {
       double& value = column.values[k];
       if (!std::isfinite(value)) {
-        note_bad_cell(column.name, {0, k + 1, std::isnan(value) ? "NaN" : "infinity", std::isnan(value)}, log);
+        note_bad_cell(column.name, {0, k + 1, std::isnan(value) ? "NaN" : "infinity", std::isnan(value)},
+                      log);
         value = std::numeric_limits<double>::quiet_NaN();
       }
     }

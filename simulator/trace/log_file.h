@@ -12,21 +12,23 @@ namespace plumbline {
 
 /// A cell that is no finite number.
 struct BadCell {
-  int line = 0;      ///< 0: the file has no lines
-  long row = 0;      ///< 1 is the first of the data
-  std::string text;  ///< as it stands there
+  int line = 0;         ///< 0: the file has no lines
+  long row = 0;         ///< 1 is the first of the data
+  std::string text;     ///< as it stands there
   bool missing = true;  ///< empty, nan, null: a sample that was not taken; otherwise text or an infinity
 };
 
 struct LogFile {
-  Table table;                          ///< NaN where a cell is no finite number; units may be empty
-  std::map<std::string, BadCell> bad;   ///< by column: the first cell that is more than missing, else the first
-  std::vector<std::string> remarks;     ///< what was understood or left out, a sentence each
+  Table table;  ///< NaN where a cell is no finite number; units may be empty
+  std::map<std::string, BadCell>
+      bad;                           ///< by column: the first cell that is more than missing, else the first
+  std::vector<std::string> remarks;  ///< what was understood or left out, a sentence each
 };
 
 struct LogQuestion {
-  std::vector<std::string> names{};   ///< of the columns of a text file without a header
-  std::vector<std::string> wanted{};  ///< HDF5 and MATLAB: these alone, of one length; empty: the longest ones
+  std::vector<std::string> names{};  ///< of the columns of a text file without a header
+  std::vector<std::string>
+      wanted{};  ///< HDF5 and MATLAB: these alone, of one length; empty: the longest ones
 };
 
 /// By what the file is (its first bytes, then its extension):
@@ -46,8 +48,8 @@ LogFile read_log(const std::string& path, const LogQuestion& question = {});
 /// last line that was cut off. Throws InputError for columns of one name, rows of another length, no rows.
 LogFile read_text_log(const std::string& path, const std::vector<std::string>& names = {});
 
-/// One object to a line; what is nested is named outer.inner, items of a list outer.1, outer.2 ... Keys that a
-/// line has not are missing cells.
+/// One object to a line; what is nested is named outer.inner, items of a list outer.1, outer.2 ... Keys that
+/// a line has not are missing cells.
 LogFile read_json_log(const std::string& path);
 
 LogFile read_hdf5_log(const std::string& path, const std::vector<std::string>& wanted);

@@ -29,7 +29,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 bool is_missing(std::string_view cell) {
-  static const std::set<std::string> words{"", "nan", "na", "n/a", "null", "none", "-nan", "nan(ind)", "-nan(ind)"};
+  static const std::set<std::string> words{"",     "nan",  "na",       "n/a",      "null",
+                                           "none", "-nan", "nan(ind)", "-nan(ind)"};
   std::string lower(cell);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -168,8 +169,8 @@ class TextLog {
     }
   }
 
-  /// The separator that cuts most lines of the beginning into the same number of cells, at least two, and these
-  /// into numbers; the stronger sign where two do.
+  /// The separator that cuts most lines of the beginning into the same number of cells, at least two, and
+  /// these into numbers; the stronger sign where two do.
   void find_dialect() {
     constexpr std::size_t kLooked = 50;
     const std::size_t looked = std::min(kLooked, lines_.size());
@@ -250,10 +251,12 @@ class TextLog {
   }
 
   static bool is_units(const Cells& cells) {
-    return std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
-      const std::string unit = without_brackets(cell);
-      return unit.empty() || unit == "-" || (unit_is_known(unit) && !parse_number(cell));
-    }) && std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+    return std::all_of(cells.begin(), cells.end(),
+                       [](std::string_view cell) {
+                         const std::string unit = without_brackets(cell);
+                         return unit.empty() || unit == "-" || (unit_is_known(unit) && !parse_number(cell));
+                       }) &&
+           std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
   }
 
   void take_units(const Cells& cells) {

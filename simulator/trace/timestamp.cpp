@@ -31,8 +31,8 @@ bool take(std::string_view& text, std::string_view any_of) {
   return true;
 }
 
-/// Days since 1970-01-01 of a date of the Gregorian calendar. Source: H. Hinnant, "chrono-Compatible Low-Level
-/// Date Algorithms" (days_from_civil), 2013.
+/// Days since 1970-01-01 of a date of the Gregorian calendar. Source: H. Hinnant, "chrono-Compatible
+/// Low-Level Date Algorithms" (days_from_civil), 2013.
 long days_since_1970(int year, int month, int day) {
   const int y = month <= 2 ? year - 1 : year;
   const int era = y / 400;

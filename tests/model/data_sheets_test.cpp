@@ -151,17 +151,21 @@ TEST_F(DataSheets, AFixedLinkWithoutMassIsAFrame) {
 
 TEST_F(DataSheets, WhatIsRefused) {
   EXPECT_THAT(refusal("unit: ohm", "unit: V"), HasSubstr("model.yaml:11: motors.drive.winding.resistance"));
-  EXPECT_THAT(refusal("command_unit: V", "command_unit: A"), HasSubstr("a winding of a motor whose command is in"));
-  EXPECT_THAT(refusal("    winding:", "    torque_constant: {value: 1, unit: N m/V, source: s}\n    winding:"),
-              HasSubstr("a torque constant beside a winding"));
+  EXPECT_THAT(refusal("command_unit: V", "command_unit: A"),
+              HasSubstr("a winding of a motor whose command is in"));
+  EXPECT_THAT(
+      refusal("    winding:", "    torque_constant: {value: 1, unit: N m/V, source: s}\n    winding:"),
+      HasSubstr("a torque constant beside a winding"));
   EXPECT_THAT(refusal("ratios:", "effects:\n  - {effect: viscous, at: drive, values: {}}\nratios:"),
               HasSubstr("which has the effect viscous, too"));
   EXPECT_THAT(refusal("ratios:", "joint_dynamics: took\nratios:"), HasSubstr("did you mean take"));
-  EXPECT_THAT(refusal("rate: true", "rate: yes"), HasSubstr("sensors.gyro.rate: found \"yes\", expected true or false"));
+  EXPECT_THAT(refusal("rate: true", "rate: yes"),
+              HasSubstr("sensors.gyro.rate: found \"yes\", expected true or false"));
   EXPECT_THAT(refusal("noise: {value: 0.1, unit: deg/s, source: s}, ", ""),
               HasSubstr("neither resolution nor noise above zero"));
   EXPECT_THAT(refusal("unit: deg/s", "unit: deg"), HasSubstr("sensors.gyro.offset"));
-  EXPECT_THAT(refusal("rate: true, ", "rate: true, counts_per_turn: 100, "), HasSubstr("where none are counted"));
+  EXPECT_THAT(refusal("rate: true, ", "rate: true, counts_per_turn: 100, "),
+              HasSubstr("where none are counted"));
   EXPECT_THAT(refusal("value: 15, unit: N,", "value: 15, unit: m,"), HasSubstr("sensors.sole.threshold"));
   EXPECT_THAT(refusal("value: 6, unit: ms", "value: -6, unit: ms"), HasSubstr("sensors.sole.closes_late"));
 }

@@ -1,11 +1,10 @@
 // MJCF skeletons against MuJoCo's own compiler, where it is installed, and against closed forms.
-#include "simulator/model/mjcf_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "simulator/model/mjcf_file.h"
 #include "simulator/model/mjcf_shapes.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
@@ -22,7 +21,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A hip of two hinges on a slide, a shin of geoms, a foot that is fixed, with classes and all sorts of poses.
+/// A hip of two hinges on a slide, a shin of geoms, a foot that is fixed, with classes and all sorts of
+/// poses.
 constexpr const char* kLeg = R"(<mujoco model="leg">
   <compiler angle="degree" eulerseq="XYZ"/>
   <option gravity="0 0.5 -9.7"/>
@@ -152,7 +152,8 @@ joint_dynamics: take
     friction[3] = -0.3 * std::tanh(v[3] / coulomb.values[1].value);
     const Eigen::VectorXd theirs =
         Eigen::Map<const Eigen::VectorXd>(d->qacc_smooth, 4) + M.ldlt().solve(friction);
-    EXPECT_LT((rate.segment(4, 4) - theirs).cwiseAbs().maxCoeff(), 1e-7 * (1.0 + theirs.cwiseAbs().maxCoeff()))
+    EXPECT_LT((rate.segment(4, 4) - theirs).cwiseAbs().maxCoeff(),
+              1e-7 * (1.0 + theirs.cwiseAbs().maxCoeff()))
         << "state " << trial;
   }
   mj_deleteData(d);
@@ -161,7 +162,8 @@ joint_dynamics: take
 #endif
 
 TEST_F(Mjcf, BadFilesAreRefusedInOneLine) {
-  EXPECT_THAT(refusal(R"(type="slide")", R"(type="ball")"), HasSubstr("leg.xml:12: rail: found a joint of type ball"));
+  EXPECT_THAT(refusal(R"(type="slide")", R"(type="ball")"),
+              HasSubstr("leg.xml:12: rail: found a joint of type ball"));
   EXPECT_THAT(refusal(R"(<joint name="rail" type="slide" axis="1 0 0.2" damping="5"/>)", "<freejoint/>"),
               HasSubstr("leg.xml:12: freejoint: found a free joint"));
   EXPECT_THAT(refusal(R"(axis="1 0 0.2")", R"(axis="0 0 0")"), HasSubstr("an axis of zeros"));
@@ -174,7 +176,8 @@ TEST_F(Mjcf, BadFilesAreRefusedInOneLine) {
   EXPECT_THAT(refusal(R"(damping="5")", R"(damping="-5")"), HasSubstr("damping -5"));
   EXPECT_THAT(refusal(R"(name="hip")", R"(name="rail")"), HasSubstr("this name twice"));
   EXPECT_THAT(refusal(R"(type="capsule")", R"(type="mesh" mesh="a")"), HasSubstr("a mesh that has to give"));
-  EXPECT_THAT(refusal("<worldbody>", "<worldbody><include file='a.xml'/>"), HasSubstr("leg.xml:9: include: found an included file"));
+  EXPECT_THAT(refusal("<worldbody>", "<worldbody><include file='a.xml'/>"),
+              HasSubstr("leg.xml:9: include: found an included file"));
   EXPECT_THAT(refusal("</mujoco>", ""), HasSubstr("no XML"));
 }
 

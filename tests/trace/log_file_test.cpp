@@ -131,7 +131,8 @@ TEST_F(Log, InstantsBecomeSeconds) {
   EXPECT_DOUBLE_EQ(timestamp_seconds("2024-02-29 14:34:56.25+02:00"), 1709210096.25);
   EXPECT_DOUBLE_EQ(timestamp_seconds("1970-01-01T00:00:00"), 0.0);
   EXPECT_DOUBLE_EQ(timestamp_seconds("2000-03-01T00:00:00"), 951868800.0);
-  for (const char* none : {"", "12:34:56", "2024-13-01T00:00:00", "2024-02-29", "2024-02-29T12:34:56 Z", "1.5"}) {
+  for (const char* none :
+       {"", "12:34:56", "2024-13-01T00:00:00", "2024-02-29", "2024-02-29T12:34:56 Z", "1.5"}) {
     EXPECT_TRUE(std::isnan(timestamp_seconds(none))) << none;
   }
   expect_column(read("when,q\n2024-02-29 12:34:56.5,1\n2024-02-29 12:34:57.0,2\n"), "when", "",
@@ -146,7 +147,8 @@ TEST_F(Log, TextThatIsRefused) {
             std::string::npos);
   EXPECT_NE(refusal("t,q\n1,2\n1,2,3\n4,5\n").find("log.csv:3: found 3 fields, expected 2 as in the header"),
             std::string::npos);
-  EXPECT_NE(refusal("t,q\n1,2\n", "log.xlsx").find("found extension .xlsx, expected .csv"), std::string::npos);
+  EXPECT_NE(refusal("t,q\n1,2\n", "log.xlsx").find("found extension .xlsx, expected .csv"),
+            std::string::npos);
   EXPECT_NE(refusal(std::string("t,q\n1,\0\n", 8)).find("bytes that are no text"), std::string::npos);
 }
 
@@ -168,8 +170,9 @@ TEST_F(Log, JsonLines) {
 TEST_F(Log, OtherJson) {
   expect_t_and_q(read(R"([{"t": 0, "q": 1.5}, {"t": 0.5, "q": -2}, {"t": 1, "q": 3e-3}])", "log.json"));
   expect_t_and_q(read(R"({"name": "x", "t": [0, 0.5, 1], "q": [1.5, -2, 3e-3]})", "log.json"));
-  EXPECT_NE(refusal("{\"t\": 1}\nno\n{\"t\": 2}\n", "log.jsonl").find("log.jsonl:2: found text that is no JSON"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("{\"t\": 1}\nno\n{\"t\": 2}\n", "log.jsonl").find("log.jsonl:2: found text that is no JSON"),
+      std::string::npos);
   EXPECT_NE(refusal("", "log.jsonl").find("no records"), std::string::npos);
 }
 

@@ -235,12 +235,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "unit: s}",
                  "unit: s, resample: {value: 50, unit: ms}}",
                  {"data.csv: t", "period of 50 ms", "at least 20 samples"}},
-        BadInput{"sections_in_disorder",
-                 false,
-                 "commands:\n",
-                 "section: [{from: {value: 0.2, unit: s}, to: {value: 0.25, unit: s}}, {from: {value: 0, unit: "
-                 "s}, to: {value: 0.1, unit: s}}]\ncommands:\n",
-                 {"trial.yaml:7: section.2", "begins before the one before it ends"}},
+        BadInput{
+            "sections_in_disorder",
+            false,
+            "commands:\n",
+            "section: [{from: {value: 0.2, unit: s}, to: {value: 0.25, unit: s}}, {from: {value: 0, unit: "
+            "s}, to: {value: 0.1, unit: s}}]\ncommands:\n",
+            {"trial.yaml:7: section.2", "begins before the one before it ends"}},
         BadInput{"no_section", false, "commands:\n", "section: []\ncommands:\n", {"section", "no sections"}},
         BadInput{"left_out_is_elsewhere",
                  false,
@@ -287,7 +288,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "kind: cascade_pd",
                  "kind: pd",
                  {"trial.yaml:21: controllers.1.position_gain", "V/m"}},
-        BadInput{"no_number_for_a_word", true, "\n0.07,0.7,7,", "\n0.07,off,7,", {"data.csv:9: u", "\"off\""}}),
+        BadInput{
+            "no_number_for_a_word", true, "\n0.07,0.7,7,", "\n0.07,off,7,", {"data.csv:9: u", "\"off\""}}),
     [](const auto& bad) { return std::string(bad.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(

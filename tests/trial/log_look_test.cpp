@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/trial/fixture.h"
+#include "validation/trial/trial.h"
 #include "validation/trial/trial_from_log.h"
 
 namespace plumbline::validation {
@@ -13,7 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// 4 s of a swing at about 200 Hz, stamps in ms that jitter, two samples lost, one cell empty; the rate in deg/s.
+/// 4 s of a swing at about 200 Hz, stamps in ms that jitter, two samples lost, one cell empty; the rate in
+/// deg/s.
 std::string swing_csv(const std::string& header) {
   std::ostringstream csv;
   csv << header << '\n';
@@ -91,7 +93,8 @@ TEST_F(LookAtLog, ATrialThatOnlyNeedsALook) {
   std::ostringstream csv;
   csv << "t [s];leg torque [N m];drive voltage [V];leg angle [deg];place [mm];note\n";
   for (int k = 0; k < 60; ++k) {
-    csv << 0.01 * k << ';' << 0.1 * k << ';' << k % 7 << ';' << 10 * std::sin(0.1 * k) << ';' << 2 * k << ";x\n";
+    csv << 0.01 * k << ';' << 0.1 * k << ';' << k % 7 << ';' << 10 * std::sin(0.1 * k) << ';' << 2 * k
+        << ";x\n";
   }
   write_file(folder / "log.csv", csv.str());
   new_trial_from_log((folder / "new").string(), (folder / "log.csv").string(), &robot);
@@ -118,12 +121,15 @@ TEST_F(LookAtLog, WithoutACommandButWithAReference) {
 }
 
 TEST_F(LookAtLog, BadInputs) {
-  EXPECT_THAT(input_error([&] { new_trial_from_log((folder / "new").string(), (folder / "no.csv").string(), nullptr); }),
+  EXPECT_THAT(input_error([&] {
+                new_trial_from_log((folder / "new").string(), (folder / "no.csv").string(), nullptr);
+              }),
               HasSubstr("nothing at this path"));
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
   write_file(folder / "log.csv", "t,q\n0,1\n");
-  EXPECT_THAT(input_error([&] { new_trial_from_log(folder.string(), (folder / "log.csv").string(), nullptr); }),
-              HasSubstr("not empty"));
+  EXPECT_THAT(
+      input_error([&] { new_trial_from_log(folder.string(), (folder / "log.csv").string(), nullptr); }),
+      HasSubstr("not empty"));
 }
 
 }  // namespace

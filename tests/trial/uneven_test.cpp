@@ -42,7 +42,8 @@ std::vector<double> jittering_times(double end) {
 
 class Uneven : public ScratchFolder {
  protected:
-  Trial read(const std::string& csv, const std::string& what = "unit: s}", const std::string& by = "unit: s}") {
+  Trial read(const std::string& csv, const std::string& what = "unit: s}",
+             const std::string& by = "unit: s}") {
     write_file(folder / "data.csv", csv);
     write_file(folder / "trial.yaml", replaced(good_trial(), what, by));
     return read_trial(folder.string(), robot);
@@ -74,8 +75,8 @@ TEST_F(Uneven, SamplesThatJitterAreResampledAtTheirMedianStep) {
 }
 
 TEST_F(Uneven, ACommandKeepsItsImpulse) {
-  const Trial trial = read(log_at(jittering_times(1.0)), "unit: s}",
-                           "unit: s, resample: {value: 4, unit: ms}}");
+  const Trial trial =
+      read(log_at(jittering_times(1.0)), "unit: s}", "unit: s, resample: {value: 4, unit: ms}}");
   EXPECT_DOUBLE_EQ(trial.period, 4e-3);
   // Held from row to row, 1 until the first row at or behind 0.5 s, then -1.
   const std::vector<double> times = jittering_times(1.0);
@@ -136,7 +137,8 @@ TEST_F(Uneven, ARowThatComesTwiceInAHundredIsLeftOut) {
 TEST_F(Uneven, SectionsAndWhatIsLeftOutMakeStretches) {
   const std::string sections =
       "section: [{from: {value: 0.1, unit: s}, to: {value: 0.5, unit: s}}, {from: {value: 0.6, unit: s}, to: "
-      "{value: 1, unit: s}}]\nleave_out: [{from: {value: 0.7, unit: s}, to: {value: 0.75, unit: s}}]\ncommands:\n";
+      "{value: 1, unit: s}}]\nleave_out: [{from: {value: 0.7, unit: s}, to: {value: 0.75, unit: "
+      "s}}]\ncommands:\n";
   const Trial trial = read(log_at(even_times(0.01, 101)), "commands:\n", sections);
   EXPECT_NEAR(trial.time[0], 0.1, 1e-12);
   EXPECT_EQ(trial.first_row, 10);
@@ -184,8 +186,10 @@ TEST_F(Uneven, AnAngleThatWrapsIsUnwrapped) {
   for (int k = 0; k < 60; ++k) {
     csv << 0.01 * k << ",0,0," << std::fmod(25.0 * k, 360.0) << ',' << std::fmod(3.0 * k, 10.0) << ",0\n";
   }
-  std::string yaml = replaced(good_trial(), "angle, unit: deg}", "angle, unit: deg, unwrap: true, scale: -1}");
-  yaml = replaced(yaml, "{column: place}", "{column: place, unwrap: {value: 1, unit: cm}, offset: {value: 1, unit: m}}");
+  std::string yaml =
+      replaced(good_trial(), "angle, unit: deg}", "angle, unit: deg, unwrap: true, scale: -1}");
+  yaml = replaced(yaml, "{column: place}",
+                  "{column: place, unwrap: {value: 1, unit: cm}, offset: {value: 1, unit: m}}");
   write_file(folder / "data.csv", csv.str());
   write_file(folder / "trial.yaml", yaml);
   const Trial trial = read_trial(folder.string(), robot);
@@ -214,7 +218,8 @@ TEST_F(Uneven, ACommandThatWasNotRecordedFollowsFromItsLaw) {
   EXPECT_TRUE(trial.controllers.empty());
 
   write_file(folder / "trial.yaml",
-             replaced(yaml, "reference: {column: reference}", "reference: {column: reference}\n    velocity: {column: u, unit: mm/s}"));
+             replaced(yaml, "reference: {column: reference}",
+                      "reference: {column: reference}\n    velocity: {column: u, unit: mm/s}"));
   const std::string message = input_error([&] { read_trial(folder.string(), robot); });
   EXPECT_NE(message.find("\"N m\""), std::string::npos) << message;
 }
@@ -231,7 +236,8 @@ TEST_F(Uneven, TheCommandOfAKnownCascadeIsComputedWhereNoneWasRecorded) {
 }
 
 TEST_F(Uneven, ClockShiftIsCarried) {
-  const Trial trial = read(good_csv(), "commands:\n", "clock_shift_uncertainty: {value: 4, unit: ms}\ncommands:\n");
+  const Trial trial =
+      read(good_csv(), "commands:\n", "clock_shift_uncertainty: {value: 4, unit: ms}\ncommands:\n");
   EXPECT_NEAR(trial.clock_shift_uncertainty, 4e-3, 1e-15);
 }
 

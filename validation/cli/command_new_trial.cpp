@@ -55,26 +55,27 @@ void print(const LogLook& look, const std::string& folder) {
   fmt::print("\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const ColumnLook& column : look.columns) {
-    rows.push_back({column.name, column.unit + (column.unit_is_guess ? " ?" : ""),
-                    fmt::format("{:.4g}", column.lowest), fmt::format("{:.4g}", column.highest),
-                    column.step > 0.0 ? fmt::format("{:.3g}", column.step) : "",
-                    column.missing > 0 ? fmt::format("{}", column.missing) : "",
-                    to_string(column.role), column.why});
+    rows.push_back(
+        {column.name, column.unit + (column.unit_is_guess ? " ?" : ""), fmt::format("{:.4g}", column.lowest),
+         fmt::format("{:.4g}", column.highest), column.step > 0.0 ? fmt::format("{:.3g}", column.step) : "",
+         column.missing > 0 ? fmt::format("{}", column.missing) : "", to_string(column.role), column.why});
   }
   print_table({"column", "unit", "from", "to", "step", "missing", "looks like", "because of"}, rows);
   for (const std::string& remark : look.remarks) {
     fmt::print("{}\n", remark);
   }
-  fmt::print("\n{}: trial.yaml, whose data stay where the log is. Correct what is guessed, then run `plumbline "
-             "check {}`.\n",
-             folder, folder);
+  fmt::print(
+      "\n{}: trial.yaml, whose data stay where the log is. Correct what is guessed, then run `plumbline "
+      "check {}`.\n",
+      folder, folder);
 }
 
 void run(const Options& options) {
   check_writable(options.json);
   if (options.log.empty()) {
     validation::new_trial_template(options.folder);
-    write_json({{"folder", options.folder}, {"files", {"trial.yaml", "data.csv", "README.md"}}}, options.json);
+    write_json({{"folder", options.folder}, {"files", {"trial.yaml", "data.csv", "README.md"}}},
+               options.json);
     fmt::print("{}: trial.yaml, data.csv and README.md; fill them in and run `plumbline check {}`\n",
                options.folder, options.folder);
     return;
@@ -83,8 +84,7 @@ void run(const Options& options) {
   if (!options.model.empty()) {
     model = model::read_model(options.model, model::known_effects());
   }
-  const LogLook look =
-      validation::new_trial_from_log(options.folder, options.log, model ? &*model : nullptr);
+  const LogLook look = validation::new_trial_from_log(options.folder, options.log, model ? &*model : nullptr);
   write_json(to_json(look, options.folder), options.json);
   print(look, options.folder);
 }
@@ -96,9 +96,10 @@ void add_new_trial(CLI::App& app, Outcome& /*outcome*/) {
   CLI::App* command = app.add_subcommand(
       "new-trial", "A folder to fill in: trial.yaml explained, or made from what a log looks like");
   command->add_option("folder", options->folder, "the new folder")->required()->type_name("DIR");
-  CLI::Option* log = command->add_option("--from", options->log,
-                                         "a log (CSV in any dialect, JSON lines, HDF5, MATLAB): its columns are "
-                                         "listed and guessed at");
+  CLI::Option* log =
+      command->add_option("--from", options->log,
+                          "a log (CSV in any dialect, JSON lines, HDF5, MATLAB): its columns are "
+                          "listed and guessed at");
   log->type_name("LOG");
   command
       ->add_option("--model", options->model,

@@ -15,8 +15,8 @@ struct ControllerSignals {
   Eigen::VectorXd reference_velocity;  ///< else zero
 };
 
-/// The law of trial.h (Controller), cut at its limit. The controller saw the same measurement that the log has,
-/// so that its quantisation is in the command as it was on the robot.
+/// The law of trial.h (Controller), cut at its limit. The controller saw the same measurement that the log
+/// has, so that its quantisation is in the command as it was on the robot.
 Eigen::VectorXd computed_command(const Controller& controller, const ControllerSignals& signals);
 
 /// "computed by pd from position and its reference"

@@ -46,20 +46,23 @@ struct Vocabulary {
 /// The first entry with one of the name's words decides: "q_des" is a reference, "dq" no position.
 const std::vector<Vocabulary>& vocabulary() {
   static const std::vector<Vocabulary> all{
-      {ColumnRole::time, {"t", "time", "timestamp", "stamp", "sec", "secs", "seconds", "tick", "ticks", "clock"}},
+      {ColumnRole::time,
+       {"t", "time", "timestamp", "stamp", "sec", "secs", "seconds", "tick", "ticks", "clock"}},
       {ColumnRole::reference,
-       {"ref", "reference", "des", "desired", "goal", "target", "setpoint", "sp", "qd", "qdes", "qref", "qg", "demand"}},
+       {"ref", "reference", "des", "desired", "goal", "target", "setpoint", "sp", "qd", "qdes", "qref", "qg",
+        "demand"}},
       {ColumnRole::contact, {"contact", "contacts", "switch", "touch", "touchdown", "stance"}},
       {ColumnRole::command,
-       {"u", "tau", "torque", "torques", "trq", "cmd", "command", "effort", "current", "amps", "amp", "iq", "pwm",
-        "voltage", "volt", "volts", "vir", "input", "duty", "curr"}},
+       {"u",   "tau", "torque", "torques", "trq",  "cmd",   "command", "effort", "current", "amps",
+        "amp", "iq",  "pwm",    "voltage", "volt", "volts", "vir",     "input",  "duty",    "curr"}},
       {ColumnRole::rate,
-       {"v", "vel", "velocity", "velocities", "dq", "qdot", "dtheta", "dphi", "omega", "w", "speed", "rate", "gyro",
-        "rpm"}},
+       {"v", "vel", "velocity", "velocities", "dq", "qdot", "dtheta", "dphi", "omega", "w", "speed", "rate",
+        "gyro", "rpm"}},
       {ColumnRole::force, {"fx", "fy", "fz", "force", "forces", "grf", "load"}},
       {ColumnRole::position,
-       {"q", "pos", "position", "positions", "angle", "angles", "theta", "phi", "alpha", "beta", "enc", "encoder",
-        "joint", "x", "y", "z", "qm", "height", "roll", "pitch", "yaw", "stroke", "displacement"}}};
+       {"q",     "pos",    "position", "positions", "angle", "angles", "theta",       "phi",
+        "alpha", "beta",   "enc",      "encoder",   "joint", "x",      "y",           "z",
+        "qm",    "height", "roll",     "pitch",     "yaw",   "stroke", "displacement"}}};
   return all;
 }
 
@@ -213,7 +216,8 @@ void look_at_time(const LogFile& log, LogLook& look) {
   look.median_step = look.time_scale * median;
   look.shortest_step = look.time_scale * steps.front();
   look.longest_step = look.time_scale * steps.back();
-  look.gaps = std::count_if(steps.begin(), steps.end(), [&](double step) { return step > kGapSteps * median; });
+  look.gaps =
+      std::count_if(steps.begin(), steps.end(), [&](double step) { return step > kGapSteps * median; });
 }
 
 /// Correlation of the differences of one column with another, and the factor between them; in the columns'
@@ -222,7 +226,8 @@ struct Derivative {
   double correlation = 0.0, factor = 0.0;
 };
 
-Derivative derivative(const Eigen::VectorXd& position, const Eigen::VectorXd& rate, const Eigen::VectorXd& time) {
+Derivative derivative(const Eigen::VectorXd& position, const Eigen::VectorXd& rate,
+                      const Eigen::VectorXd& time) {
   constexpr Eigen::Index kOver = 4;
   double pp = 0.0;
   double rr = 0.0;
@@ -274,8 +279,8 @@ void look_at_rates(const LogFile& log, LogLook& look) {
     ColumnLook& position = look.columns[of];
     if (rate.unit.empty() && !position.unit.empty()) {
       const bool degrees = position.unit == "deg" || position.unit == "degree";
-      rate.unit = near(1.0) ? position.unit + "/s"
-                  : near(kDegree) && !degrees ? "deg/s"
+      rate.unit = near(1.0)                        ? position.unit + "/s"
+                  : near(kDegree) && !degrees      ? "deg/s"
                   : near(1.0 / kDegree) && degrees ? "rad/s"
                                                    : "";
       rate.unit_is_guess = true;
@@ -291,7 +296,9 @@ void guess_unit(ColumnLook& column) {
   }
   const double largest = std::max(std::abs(column.lowest), std::abs(column.highest));
   const std::vector<std::string> words = words_of(column.name);
-  const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const auto has = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   const bool whole = column.step >= 1.0;
   std::string unit;
   switch (column.role) {
@@ -304,7 +311,7 @@ void guess_unit(ColumnLook& column) {
       unit = has("deg") || largest > 100.0 ? "deg/s" : "rad/s";
       break;
     case ColumnRole::command:
-      unit = has("current") || has("amps") || has("amp") || has("iq") || has("curr")   ? "A"
+      unit = has("current") || has("amps") || has("amp") || has("iq") || has("curr")     ? "A"
              : has("voltage") || has("volt") || has("volts") || has("vir") || has("pwm") ? "V"
                                                                                          : "N m";
       break;

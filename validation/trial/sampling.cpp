@@ -37,7 +37,7 @@ bool are_even(const std::vector<double>& steps, double usual) {
 
 }  // namespace
 
-Grid::Grid(Eigen::VectorXd time, const Sampling& sampling, const Place_in_file& where)
+Grid::Grid(Eigen::VectorXd time, const LogSampling& sampling, const Place_in_file& where)
     : rows_(std::move(time)) {
   const Eigen::Index n = rows_.size();
   if (n < kFewestSamples) {
@@ -70,15 +70,16 @@ Grid::Grid(Eigen::VectorXd time, const Sampling& sampling, const Place_in_file& 
   const double count = std::floor(duration / period_ + kSameTime) + 1.0;
   if (count > kMostSamplesOfARow * static_cast<double>(n) || count < static_cast<double>(kFewestSamples)) {
     throw InputError(where,
-                     "rows every " + milliseconds(usual) + " over " + number_text(duration, 4) + " s for a period of " +
-                         milliseconds(period_),
+                     "rows every " + milliseconds(usual) + " over " + number_text(duration, 4) +
+                         " s for a period of " + milliseconds(period_),
                      "a sample period for at least 20 samples, and gaps that a period can bridge; "
                      "`section` takes a part of the recording");
   }
   const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
-  samples_ = rows_[0] + period_ * Eigen::ArrayXd::LinSpaced(static_cast<Eigen::Index>(count), 0.0, count - 1.0);
-  remark_ = "The samples are not even (steps of " + milliseconds(*shortest) + " to " + milliseconds(*longest) +
-            "): resampled every " + milliseconds(period_) +
+  samples_ =
+      rows_[0] + period_ * Eigen::ArrayXd::LinSpaced(static_cast<Eigen::Index>(count), 0.0, count - 1.0);
+  remark_ = "The samples are not even (steps of " + milliseconds(*shortest) + " to " +
+            milliseconds(*longest) + "): resampled every " + milliseconds(period_) +
             ", channels by straight lines, commands held and averaged over each sample.";
   if (!gaps_.empty()) {
     remark_ += " " + std::to_string(gaps_.size()) + (gaps_.size() == 1 ? " gap is" : " gaps are") +
@@ -191,8 +192,8 @@ std::vector<Stretch> Grid::stretches(const std::vector<Gap>& gaps) const {
     }
     // A gap may lie between two samples that are both known.
     const bool behind_gap = k > 0 && std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
-      return gap.from >= samples_[k - 1] - hair() && gap.to <= samples_[k] + hair();
-    });
+                              return gap.from >= samples_[k - 1] - hair() && gap.to <= samples_[k] + hair();
+                            });
     if (stretches.empty() || stretches.back().end != k || behind_gap) {
       stretches.push_back({k, k});
     }

@@ -22,7 +22,7 @@ class Grid {
  public:
   /// `time` of the rows, s, rising. Throws InputError for fewer than 20 rows, and for gaps so long that there
   /// would be more than a hundred samples to a row.
-  Grid(Eigen::VectorXd time, const Sampling& sampling, const Place_in_file& where);
+  Grid(Eigen::VectorXd time, const LogSampling& sampling, const Place_in_file& where);
 
   const Eigen::VectorXd& time() const { return samples_; }
   double period() const { return period_; }

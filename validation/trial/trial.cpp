@@ -145,8 +145,8 @@ class TrialReader {
                                         optional_rows(use.velocity), optional_rows(use.reference_velocity)});
       trial_.commands.push_back({controller.motor, "", model_.find_motor(controller.motor)->command_unit,
                                  grid_.held_mean(command), law_of_command(controller)});
-      trial_.remarks.push_back("The command of " + controller.motor + " was not recorded: " +
-                               law_of_command(controller) + ".");
+      trial_.remarks.push_back("The command of " + controller.motor +
+                               " was not recorded: " + law_of_command(controller) + ".");
     }
     if (controller.kind != "pd") {
       controller.reference = grid_.held(controller.reference);
@@ -179,7 +179,8 @@ class TrialReader {
     }
     const std::vector<Stretch> stretches = grid_.stretches(gaps_);
     if (stretches.empty()) {
-      throw InputError({trial_.file, 0, "data"}, "no sample that is in no gap and in no part that is left out",
+      throw InputError({trial_.file, 0, "data"},
+                       "no sample that is in no gap and in no part that is left out",
                        "a stretch of the recording that can be used");
     }
     keep(stretches.front().first, stretches.back().end - stretches.front().first);

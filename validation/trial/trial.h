@@ -109,8 +109,8 @@ struct Trial {
   /// One standard deviation, s, of one constant by which all measured channels may be late or early against
   /// the commands (two clocks); 0: none. A nuisance, like Measured::offset_uncertainty.
   double clock_shift_uncertainty = 0.0;
-  /// How the robot differed from the model in this trial, known beforehand (a payload): effects without states
-  /// of their own, added behind all those of whatever model is tried (as_recorded).
+  /// How the robot differed from the model in this trial, known beforehand (a payload): effects without
+  /// states of their own, added behind all those of whatever model is tried (as_recorded).
   std::vector<model::EffectUse> configuration{};
   std::vector<std::string> remarks{};  ///< what was done to the recording, a sentence each
   double period = 1e-3;                ///< s
@@ -132,8 +132,8 @@ std::vector<Stretch> stretches_of(const Trial& trial);
 /// The model's sensor with the resolution and noise that the record states instead.
 model::Sensor sensor_of(const model::Model& model, const Measured& measured);
 
-/// The model with the sensors as this trial's records state them, and with the trial's configuration behind its
-/// effects: their indices stay what they are.
+/// The model with the sensors as this trial's records state them, and with the trial's configuration behind
+/// its effects: their indices stay what they are.
 model::Model as_recorded(const model::Model& model, const Trial& trial);
 
 /// Standard deviation of a contact event's time when it may lie anywhere in a sample period: T/sqrt(12).

@@ -21,8 +21,8 @@ struct Signal {
 };
 
 /// Throws InputError when the column is missing (with the nearest names), its unit is missing, wrong or not
-/// the one that the data file states, or a cell is no finite number (with its line or row): text and infinities
-/// always, a missing cell unless `may_miss`.
+/// the one that the data file states, or a cell is no finite number (with its line or row): text and
+/// infinities always, a missing cell unless `may_miss`.
 Signal read_signal(const LogFile& log, const ColumnUse& use, bool may_miss);
 
 /// The rows of a log that have a time, and that time.
@@ -34,8 +34,8 @@ struct RowTimes {
 
 /// Of the time column, or row by row of the rate. A time that begins later than 10^7 s is an absolute one
 /// (seconds since 1970, or since a machine was started): it is counted from the first row. A time that is not
-/// above the one before is refused; up to 1 % of the rows, which happens where a log is written by two threads,
-/// are left out with a remark.
+/// above the one before is refused; up to 1 % of the rows, which happens where a log is written by two
+/// threads, are left out with a remark.
 RowTimes row_times(const TrialFile& file, const LogFile& log);
 
 /// Values of the rows that are kept.

@@ -77,7 +77,8 @@ void read_wrap(const YamlNode& node, const std::string& expected_unit, const std
   } else if (unwrap->flag()) {
     use.turn = kTurn;
     if (!units_agree(expected_unit, "rad")) {
-      unwrap->refuse("true where nothing turns", "after what it wraps: {value: ..., unit: " + expected_unit + "}");
+      unwrap->refuse("true where nothing turns",
+                     "after what it wraps: {value: ..., unit: " + expected_unit + "}");
     }
   }
   if (unwrap->is_map() && !(use.turn > 0.0)) {
@@ -229,7 +230,7 @@ double positive_time(const YamlNode& node) {
   return value;
 }
 
-void read_sampling(const YamlNode& node, Sampling& sampling) {
+void read_sampling(const YamlNode& node, LogSampling& sampling) {
   sampling.place = node.place();
   if (const auto resample = node.find("resample")) {
     sampling.place = resample->place();
@@ -323,7 +324,8 @@ void read_controller_frame(const YamlNode& node, const Model& model, Controller&
   const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
   check_sensor(node.at("sensor"), c.sensor, model);
   if (!model.find_sensor(c.sensor)->shows_position()) {
-    node.at("sensor").refuse("a sensor that shows no position", "the sensor that the controller closes its loop on");
+    node.at("sensor").refuse("a sensor that shows no position",
+                             "the sensor that the controller closes its loop on");
   }
   if (const auto limit = node.find("command_limit")) {
     c.command_limit =
@@ -349,8 +351,9 @@ Controller read_pd(const YamlNode& node, const Model& model) {
 }
 
 ControllerUse read_controller(const YamlNode& node, const Model& model) {
-  std::vector<std::string> keys{"kind",          "motor",       "sensor",        "reference",    "position_gain",
-                                "velocity_gain", "disturbance", "command_limit", "velocity_over"};
+  std::vector<std::string> keys{"kind",        "motor",         "sensor",
+                                "reference",   "position_gain", "velocity_gain",
+                                "disturbance", "command_limit", "velocity_over"};
   const bool is_pd = node.at("kind").text() == "pd";
   if (is_pd) {
     keys.insert(keys.end(), {"velocity", "reference_velocity"});
@@ -388,8 +391,8 @@ std::vector<ControllerUse> read_controllers(const YamlNode& node, const Model& m
   return uses;
 }
 
-/// Effects that the robot had in this trial alone. Their states and released ratios would make another state of
-/// the robot's.
+/// Effects that the robot had in this trial alone. Their states and released ratios would make another state
+/// of the robot's.
 std::vector<model::EffectUse> read_configuration(const YamlNode& node, const Model& model) {
   node.allow_keys({"effects"});
   Model changed = model;
@@ -399,7 +402,8 @@ std::vector<model::EffectUse> read_configuration(const YamlNode& node, const Mod
   for (std::size_t i = 0; i < changed.effects.size(); ++i) {
     const model::EffectUse& use = changed.effects[i];
     if (use.law->state_count() > 0 || model.resolve(*use.law, use.at) == effects::Place::ratio) {
-      items[i].refuse(use.label() + ", which adds a state", "a payload, a spring or another effect without states");
+      items[i].refuse(use.label() + ", which adds a state",
+                      "a payload, a spring or another effect without states");
     }
   }
   return changed.effects;

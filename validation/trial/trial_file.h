@@ -53,7 +53,7 @@ struct ControllerUse {
 };
 
 /// How uneven sampling becomes even.
-struct Sampling {
+struct LogSampling {
   double period = 0.0;       ///< s; 0: the median step, and even sampling stays as it is
   bool even = false;         ///< the samples were even, only their stamps jitter
   double longest_gap = 0.0;  ///< s; over longer gaps nothing is interpolated; 0: five periods
@@ -72,10 +72,10 @@ struct TrialFile {
   std::vector<std::string> columns;  ///< of a data file without header; empty: it has one
   ColumnUse time;                    ///< without a name where the rate is given
   double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
-  Sampling sampling;
-  bool fill_missing = false;         ///< cells without a number are bridged like gaps; else they are refused
-  std::vector<Section> sections;     ///< what the trial is made of; empty: the whole recording
-  std::vector<Section> left_out;     ///< and what is not used of it
+  LogSampling sampling;
+  bool fill_missing = false;      ///< cells without a number are bridged like gaps; else they are refused
+  std::vector<Section> sections;  ///< what the trial is made of; empty: the whole recording
+  std::vector<Section> left_out;  ///< and what is not used of it
   double clock_shift_uncertainty = 0.0;  ///< s
   std::vector<MeasuredUse> measured;
   std::vector<CommandUse> commands;

@@ -96,8 +96,10 @@ class Writer {
     out_ << "# Made from " << fs::path(look_.file).filename().string()
          << ". What is marked as a guess, and every sign, wants a look.\n"
          << "plumbline: trial/1\n"
-         << "title: " << quoted(fs::path(look_.file).stem().string() + ": what was done, in a few words") << "\n\n"
-         << "model: " << yaml_text(model_file) << "          # the robot's model file, relative to this file\n"
+         << "title: " << quoted(fs::path(look_.file).stem().string() + ": what was done, in a few words")
+         << "\n\n"
+         << "model: " << yaml_text(model_file)
+         << "          # the robot's model file, relative to this file\n"
          << "role: train               # or held-out: another kind of motion, never fitted\n\n"
          << "data: " << yaml_text(data) << "\n";
     write_table();
@@ -140,10 +142,10 @@ class Writer {
     out_ << "time: {column: " << yaml_text(time.name) << ", unit: " << time.unit << "}"
          << (time.unit_is_guess ? "  # unit guessed" : "") << "\n"
          << "# " << number(look_.duration) << " s; steps of " << number(1e3 * look_.shortest_step) << " to "
-         << number(1e3 * look_.longest_step) << " ms, the median " << number(1e3 * look_.median_step) << " ms";
+         << number(1e3 * look_.longest_step) << " ms, the median " << number(1e3 * look_.median_step)
+         << " ms";
     if (look_.longest_step > 1.01 * look_.median_step || look_.shortest_step < 0.99 * look_.median_step) {
-      out_ << ":\n# resampled at the median step. Add `resample: {value: "
-           << number(1e3 * look_.median_step)
+      out_ << ":\n# resampled at the median step. Add `resample: {value: " << number(1e3 * look_.median_step)
            << ", unit: ms}` for a period of your own, or `resample: even`\n"
               "# where the samples were even and only their stamps jitter";
     }
@@ -154,11 +156,12 @@ class Writer {
     if (look_.not_rising > 0) {
       out_ << "# " << look_.not_rising << " rows have a time that is not above that of the row before.\n";
     }
-    const bool any_missing = std::any_of(look_.columns.begin(), look_.columns.end(), [](const ColumnLook& one) {
-      return one.missing > 0 && one.text.empty();
-    });
+    const bool any_missing =
+        std::any_of(look_.columns.begin(), look_.columns.end(),
+                    [](const ColumnLook& one) { return one.missing > 0 && one.text.empty(); });
     if (any_missing) {
-      out_ << "missing: fill             # cells without a number are bridged; long runs are no part of the trial\n";
+      out_ << "missing: fill             # cells without a number are bridged; long runs are no part of the "
+              "trial\n";
     }
     out_ << "\n";
   }
@@ -247,15 +250,17 @@ class Writer {
     const ColumnLook& column = look_.columns[static_cast<std::size_t>(choice.column)];
     std::string unit = column.unit;
     if (model_ != nullptr && column.unit_is_guess) {
-      const std::string known = choice.role == ColumnRole::command
-                                    ? model_->find_motor(choice.name)->command_unit
-                                : choice.role == ColumnRole::contact ? "1"
-                                                                     : model::reading_unit(*model_, choice.name);
+      const std::string known =
+          choice.role == ColumnRole::command   ? model_->find_motor(choice.name)->command_unit
+          : choice.role == ColumnRole::contact ? "1"
+                                               : model::reading_unit(*model_, choice.name);
       unit = units_agree(unit, known) ? unit : known;
     }
-    out_ << "  " << choice.name << ": {column: " << yaml_text(column.name)
-         << ", unit: " << (unit == "1" ? "\"1\"" : unit.empty() ? "\"?\"" : unit) << "}"
-         << (column.unit_is_guess ? "   # unit guessed" : "") << "\n";
+    out_ << "  " << choice.name << ": {column: " << yaml_text(column.name) << ", unit: "
+         << (unit == "1"    ? "\"1\""
+             : unit.empty() ? "\"?\""
+                            : unit)
+         << "}" << (column.unit_is_guess ? "   # unit guessed" : "") << "\n";
   }
 
   bool any_chosen(bool commands) const {
@@ -285,8 +290,10 @@ class Writer {
            << "  - kind: pd              # command = position_gain (reference - measured) - velocity_gain "
               "d(measured)/dt\n"
            << "    motor: " << motor << "\n    sensor: "
-           << (model_ != nullptr && !model_->sensors.empty() ? model_->sensors.front().name : "sensor") << "\n"
-           << "    reference: {column: " << yaml_text(reference->name) << ", unit: " << reference->unit << "}\n"
+           << (model_ != nullptr && !model_->sensors.empty() ? model_->sensors.front().name : "sensor")
+           << "\n"
+           << "    reference: {column: " << yaml_text(reference->name) << ", unit: " << reference->unit
+           << "}\n"
            << "    position_gain: {value: 1, unit: N m/rad, assumed: \"put the gain here\"}\n"
            << "    velocity_gain: {value: 0, unit: N m s/rad, assumed: \"put the gain here\"}\n\n";
     }
@@ -343,8 +350,8 @@ LogLook new_trial_from_log(const std::string& folder, const std::string& log, co
   const auto from_there = [&](const std::string& path) {
     return fs::proximate(fs::absolute(path).lexically_normal(), target).string();
   };
-  const std::string text = trial_text(look, model, from_there(log),
-                                      model == nullptr ? "../model.yaml" : from_there(model->file));
+  const std::string text =
+      trial_text(look, model, from_there(log), model == nullptr ? "../model.yaml" : from_there(model->file));
   write_new_folder(folder, [&](const std::string& temporary) {
     write_text_atomically((fs::path(temporary) / "trial.yaml").string(), text);
   });

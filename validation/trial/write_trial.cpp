@@ -175,7 +175,8 @@ class TrialWriter {
       out_ << YAML::Key << "values" << YAML::Value << YAML::BeginMap;
       for (std::size_t i = 0; i < use.values.size(); ++i) {
         const std::string si = model::parameter_unit(model_, *use.law, use.at, static_cast<int>(i));
-        quantity(law.parameters[i].name.c_str(), use.values[i].value, si, or_else(use.values[i].source, kGainSource));
+        quantity(law.parameters[i].name.c_str(), use.values[i].value, si,
+                 or_else(use.values[i].source, kGainSource));
       }
       out_ << YAML::EndMap << YAML::EndMap;
     }
