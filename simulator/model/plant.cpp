@@ -270,7 +270,7 @@ void Plant::place_sensors() {
     }
     const Line line = line_of(full_direction(sensor.measures));
     output_map_.row(s) = line.reduced.transpose();
-    output_offset_[s] = line.offset + sensor.offset;
+    output_offset_[s] = sensor.rate ? sensor.offset : line.offset + sensor.offset;
   }
   for (const Motor& motor : model_.motors) {
     motor_lines_.push_back(line_of(full_direction(motor.name)));

@@ -92,7 +92,8 @@ class Plant {
 
   /// What the sensors would read without quantisation and noise, SI.
   void outputs(const double* x, double* y);
-  /// d(true position of sensor)/dz, sensors x positions; a force plate's row is zero.
+  /// d(what a sensor truly sees)/dz, of a rate sensor /d(dz/dt), sensors x positions; a force plate's row is
+  /// zero.
   const Eigen::MatrixXd& output_map() const { return output_map_; }
   /// True position of each sensor at z = 0.
   const Eigen::VectorXd& output_offset() const { return output_offset_; }
@@ -171,7 +172,8 @@ class Plant {
   /// d(outputs)/d(parameters) at x, sensors x parameters.
   void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
                       const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
-  /// d(outputs)/dz with the sensors' own scale effects, sensors x positions; a force plate's row is zero.
+  /// d(outputs)/d(positions, velocities) with the sensors' own scale effects, sensors x 2 positions; a force
+  /// plate's row is zero.
   void output_jacobian(const double* x, Eigen::MatrixXd& C);
 
   /// Approximate d(rate)/dx for implicit integrators: mass matrix and the effects' own slopes, no further

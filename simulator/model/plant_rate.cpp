@@ -171,9 +171,10 @@ void Plant::raise_speeds(const double* x, double* speeds) {
 
 void Plant::outputs(const double* x, double* y) {
   for (int s = 0; s < sensors(); ++s) {
+    const double* seen = model_.sensors[static_cast<std::size_t>(s)].rate ? x + nz_ : x;
     double reading = output_offset_[s];
     for (int i = 0; i < nz_; ++i) {
-      reading += output_map_(s, i) * x[i];
+      reading += output_map_(s, i) * seen[i];
     }
     for (const SensorSlot& slot : sensor_effects_[static_cast<std::size_t>(s)]) {
       reading = slot.law->reading(reading, values(slot.effect));

@@ -385,8 +385,11 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
 }
 
 void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
-  C = output_map_;
-  Eigen::VectorXd y(sensors());
+  C.setZero(sensors(), 2 * nz_);
+  for (int s = 0; s < sensors(); ++s) {
+    const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
+    C.row(s).segment(rate ? nz_ : 0, nz_) = output_map_.row(s);
+  }
   Eigen::VectorXd actual = output_map_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + output_offset_;
   for (int s = 0; s < sensors(); ++s) {
     const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];

@@ -87,7 +87,8 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
         trial.contact_events.begin(), trial.contact_events.end(),
         [&](const validation::ContactEvent& event) { return event.record == static_cast<int>(r); });
     rows.push_back({"contact switch " + trial.switches[r].name, trial.switches[r].column, "1",
-                    fmt::format("{} events", events), fmt::format("{:.3g} s", timing_floor(trial))});
+                    fmt::format("{} events", events),
+                    fmt::format("{:.3g} s", timing_floor(trial, static_cast<int>(r)))});
   }
   for (const validation::Command& command : trial.commands) {
     rows.push_back(

@@ -42,7 +42,9 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
         return trial.contact_events[static_cast<std::size_t>(e)].record == static_cast<int>(r);
       });
       const double square = sum[static_cast<Eigen::Index>(trial.measured.size() + r)];
-      ChannelError error{trial.name, trial.switches[r].name, "s", trial.role, 0.0, timing_floor(trial), 0.0};
+      ChannelError error{
+          trial.name, trial.switches[r].name, "s", trial.role, 0.0, timing_floor(trial, static_cast<int>(r)),
+          0.0};
       error.ratio = std::sqrt(square / std::max(static_cast<double>(count), 1.0));
       error.rms = error.ratio * error.floor;
       errors.push_back(error);

@@ -39,7 +39,7 @@ Eigen::MatrixXd positions(model::Plant& plant, const Trial& trial, double cutoff
       const model::Sensor& sensor = plant.model().sensors[static_cast<std::size_t>(s)];
       if (sensor.name == measured.sensor) {
         const double floor = sensor.floor() > 0.0 ? sensor.floor() : 1.0;
-        C.row(c) = slope.row(s) / floor;
+        C.row(c) = slope.row(s).head(plant.positions()) / floor;
         y.row(c) = (sensing::low_pass(measured.values, trial.period, bounded(cutoff, trial.period))
                         .transpose()
                         .array() -

@@ -14,7 +14,7 @@ std::vector<model::Observation> start_observations(const model::Plant& plant, co
   std::vector<model::Observation> channels;
   for (const Measured& channel : trial.measured) {
     const int sensor = plant.model().sensor_index(channel.sensor);
-    if (!plant.model().sensors[static_cast<std::size_t>(sensor)].is_force_plate()) {
+    if (plant.model().sensors[static_cast<std::size_t>(sensor)].shows_position()) {
       channels.push_back(model::observe_sensor(plant, sensor));
     }
   }
@@ -116,7 +116,7 @@ void Predictor::touch_down_in_time(const Window& window, int foot, double touchd
   const Eigen::Index nz = plant_.positions();
   for (int i = 0; i < kCorrections; ++i) {
     run(until, x);
-    const Crossing crossing = nearest_crossing(foot, true, time, kBehind);
+    const Crossing crossing = nearest_crossing(foot, 0.0, true, time, kBehind);
     if (crossing.node < 0) {
       return;
     }

@@ -41,7 +41,7 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     sensor_of_channel_.push_back(s);
     const model::Sensor& sensor = plant_.model().sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
-    if (!sensor.is_force_plate()) {
+    if (sensor.shows_position()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
   }
@@ -95,7 +95,11 @@ void Predictor::carry_hidden(const Window& window, double* x) {
     x[i] = 0.0;
   }
   const auto reach = static_cast<Eigen::Index>(std::lround(options_.history / trial_.period));
-  for (Eigen::Index k = std::max<Eigen::Index>(0, window.first - reach); k < window.first; ++k) {
+  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
+  for (const Stretch& stretch : trial_.stretches) {
+    from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
+  }
+  for (Eigen::Index k = from; k < window.first; ++k) {
     plant_.carry_force_states(motion_.col(k).data(), motion_.col(k + 1).data(), trial_.period, x);
   }
 }

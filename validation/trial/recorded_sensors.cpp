@@ -1,5 +1,8 @@
 // A sensor of the model as one recording had it.
-#include "simulator/trace/error.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "validation/trial/trial.h"
 
 namespace plumbline::validation {
@@ -26,7 +29,29 @@ model::Model as_recorded(const model::Model& model, const Trial& trial) {
       take_over(measured, recorded.sensors[static_cast<std::size_t>(index)]);
     }
   }
+  recorded.effects.insert(recorded.effects.end(), trial.configuration.begin(), trial.configuration.end());
   return recorded;
+}
+
+SwitchRecord record_of(const model::ContactSwitch& contact, const std::string& column,
+                       Eigen::VectorXd closed) {
+  return {contact.name,       column,
+          std::move(closed),  contact.closes_late,
+          contact.opens_late, contact.lateness_uncertainty,
+          contact.bounce};
+}
+
+Eigen::VectorXd read_late(const model::ContactSwitch& contact, const Eigen::VectorXd& closed, double period) {
+  Eigen::VectorXd read = closed;
+  for (Eigen::Index k = 1; k < closed.size(); ++k) {
+    if (closed[k] != closed[k - 1]) {
+      const double late = closed[k] > 0.0 ? contact.closes_late : contact.opens_late;
+      const Eigen::Index from = std::min(k + std::lround(late / period), closed.size());
+      read.segment(std::min(k, from), from - std::min(k, from)).setConstant(closed[k - 1]);
+      read.tail(closed.size() - from).setConstant(closed[k]);
+    }
+  }
+  return read;
 }
 
 }  // namespace plumbline::validation

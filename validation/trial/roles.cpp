@@ -47,10 +47,19 @@ bool same_numbers(const Trial& a, const Trial& b) {
   return measured.shared > 0 && measured.equal && commanded.equal;
 }
 
-/// Have two trials rows of one data file in common?
+/// Have two trials times of one data file in common?
 bool share_rows(const Trial& a, const Trial& b) {
-  return same_file(a.data_file, b.data_file) && a.first_row < b.first_row + b.samples() &&
-         b.first_row < a.first_row + a.samples();
+  if (!same_file(a.data_file, b.data_file)) {
+    return false;
+  }
+  for (const Stretch& of_a : stretches_of(a)) {
+    for (const Stretch& of_b : stretches_of(b)) {
+      if (a.time[of_a.first] <= b.time[of_b.end - 1] && b.time[of_b.first] <= a.time[of_a.end - 1]) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 void check_pair(const Trial& held_out, const Trial& train) {

@@ -18,6 +18,9 @@ struct ColumnUse {
   std::string expected_unit;  ///< of the sensor or motor it belongs to
   std::string owner;          ///< "sensor q", for messages
   Place_in_file place;
+  double scale = 1.0;   ///< of what stands in the column: -1 turns it over, 0.088 makes degrees of counts
+  double offset = 0.0;  ///< added behind that, SI
+  double turn = 0.0;    ///< the column wraps around after this, SI; 0: it does not
 };
 
 /// A stretch of the recording, s.
@@ -43,7 +46,18 @@ struct CommandUse {
 struct ControllerUse {
   Controller controller;  ///< without the recorded signals
   ColumnUse reference;
-  std::optional<ColumnUse> disturbance;
+  std::optional<ColumnUse> disturbance{};
+  std::optional<ColumnUse> velocity{};            ///< of a pd; without it the measurement is differenced
+  std::optional<ColumnUse> reference_velocity{};  ///< of a pd; without it none
+  Place_in_file place{};
+};
+
+/// How uneven sampling becomes even.
+struct LogSampling {
+  double period = 0.0;       ///< s; 0: the median step, and even sampling stays as it is
+  bool even = false;         ///< the samples were even, only their stamps jitter
+  double longest_gap = 0.0;  ///< s; over longer gaps nothing is interpolated; 0: five periods
+  Place_in_file place{};
 };
 
 struct TrialFile {
@@ -58,11 +72,16 @@ struct TrialFile {
   std::vector<std::string> columns;  ///< of a data file without header; empty: it has one
   ColumnUse time;                    ///< without a name where the rate is given
   double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
-  std::optional<Section> section;    ///< empty: the whole recording
+  LogSampling sampling;
+  bool fill_missing = false;      ///< cells without a number are bridged like gaps; else they are refused
+  std::vector<Section> sections;  ///< what the trial is made of; empty: the whole recording
+  std::vector<Section> left_out;  ///< and what is not used of it
+  double clock_shift_uncertainty = 0.0;  ///< s
   std::vector<MeasuredUse> measured;
   std::vector<CommandUse> commands;
   std::vector<ControllerUse> controllers;
   std::vector<Lock> locks;
+  std::vector<model::EffectUse> configuration;
   std::vector<Start> start;
   std::vector<double> events;
 };
