@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
                  false,
                  "role: train",
                  "role: held_out",
-                 {"trial.yaml:4: role: found \"held_out\"", "train or held-out", "did you mean held-out?"}},
+                 {"trial.yaml:4: role: found \"held_out\"", "train, held-out or test", "did you mean held-out?"}},
         BadInput{"cut_off", false, "{column: t, unit: s}", "{column: t, unit", {"no YAML"}},
         BadInput{"no_such_data", false, "data.csv", "date.csv", {"date.csv", "nothing at this path"}},
         BadInput{

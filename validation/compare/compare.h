@@ -30,7 +30,8 @@ struct Comparison {
   std::vector<PhaseError> phases;  ///< of compare(model, data) only
 };
 
-/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted).
+/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted), those
+/// of the tests too.
 Comparison compare(const model::Model& model, const Data& data);
 
 /// The same from an estimate that is at hand.

@@ -98,6 +98,8 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     const Followed tried = diagnose_windows(model, catalogue, some, options, progress, diagnosis);
     finish(data, tried, some, options, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
+    diagnosis.test_before = test_error(model, data);
+    diagnosis.test_after = test_error(fitted_model(diagnosis.final_stage), data);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

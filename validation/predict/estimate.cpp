@@ -367,9 +367,18 @@ double readings(const Data& data, int window) {
   return static_cast<double>(one.count) * static_cast<double>(trial.measured.size());
 }
 
+double test_error(const model::Model& model, const Data& data) {
+  if (data.tests.empty()) {
+    return 0.0;
+  }
+  const Data tests = data.of_tests();
+  PredictorPool pool(model, tests);
+  return estimate_states(pool).scores.test;
+}
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
-  for (const Role role : {Role::train, Role::held_out}) {
+  for (const Role role : {Role::train, Role::held_out, Role::test}) {
     // Channels are those of each trial; a channel that several trials measure counts once for each.
     double sum = 0.0;
     double count = 0.0;
@@ -380,7 +389,10 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
         count += one.channels;
       }
     }
-    (role == Role::train ? scores.train : scores.held_out) = count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    double& of_role = role == Role::train      ? scores.train
+                      : role == Role::held_out ? scores.held_out
+                                               : scores.test;
+    of_role = count > 0.0 ? std::sqrt(sum / count) : 0.0;
   }
   return scores;
 }

@@ -13,6 +13,7 @@ namespace plumbline::validation {
 struct Scores {
   double train = 0.0;
   double held_out = 0.0;
+  double test = 0.0;  ///< of an estimate of Data::of_tests() only (test_error below)
   double square() const { return train * train + held_out * held_out; }
 };
 
@@ -65,6 +66,9 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
 /// The model as it is: gauss_newton without parameters, which finds the windows' initial states, from
 /// start_x0 or, where that is empty, from the measurements.
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0 = {});
+
+/// Error of the model as it is on the trials of role test, in floors, as in Scores; 0 without such trials.
+double test_error(const model::Model& model, const Data& data);
 
 /// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);
