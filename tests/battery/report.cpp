@@ -211,7 +211,8 @@ std::string summary_text(const Summary& s, const Targets& t) {
                       share_text(s.weak_of_all));
   text += fmt::format("  visible ones named themselves, not only by a rival: {}\n", share_text(s.alone));
   text += fmt::format("  right ones with nothing invented beside: {}\n", share_text(s.clean));
-  text += fmt::format("  outside the catalogue, nothing named, not even as a part: {}\n", share_text(s.silent));
+  text +=
+      fmt::format("  outside the catalogue, nothing named, not even as a part: {}\n", share_text(s.silent));
   text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
                       share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
   text += fmt::format("  a case takes {:.1f} s of processor, median\n", median(s.processor_seconds));

@@ -27,8 +27,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// In foreign worlds the friction of a loaded drive follows what its gear passes on: of the catalogue's two
+/// laws for it either is its name.
 bool names(const model::EffectUse& truth, const std::string& effect, const std::string& at) {
-  return truth.law->declaration().name == effect && truth.at == at;
+  const std::string& hidden = truth.law->declaration().name;
+  return truth.at == at && (hidden == effect || (hidden == "load_friction" && effect == "gear_friction"));
 }
 
 /// The finding and its rivals; what is one force under two names on the robot counts once.
@@ -93,8 +96,7 @@ bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::E
       return diagnosis.verdict != validation::Verdict::missing;
     case Kind::pair:
       return nothing_invented && diagnosis.accepted.size() >= 2 &&
-             std::all_of(hidden.begin(), hidden.end(), is_found) &&
-             (lab || diagnosis.accepted.size() == 2);
+             std::all_of(hidden.begin(), hidden.end(), is_found) && (lab || diagnosis.accepted.size() == 2);
     case Kind::hidden:
       break;
   }
@@ -118,11 +120,10 @@ void judge(const validation::Diagnosis& diagnosis, const std::vector<model::Effe
   result.right = is_right(diagnosis, hidden, result.one.kind, options.lab);
   result.invented = count_invented(diagnosis, hidden, options.lab);
   result.alone = result.right && std::all_of(hidden.begin(), hidden.end(), [&](const model::EffectUse& one) {
-    return names_itself(diagnosis, one);
-  });
-  result.in_set =
-      result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
-      finds(diagnosis.accepted.front(), hidden.front(), set_size(diagnosis.accepted.front()));
+                   return names_itself(diagnosis, one);
+                 });
+  result.in_set = result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
+                  finds(diagnosis.accepted.front(), hidden.front(), set_size(diagnosis.accepted.front()));
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];
     const std::string name = finding.label();

@@ -12,8 +12,8 @@ namespace plumbline::battery {
 constexpr double kVisible = 1.15;      ///< held-out error, in floors, from which an effect must be found
 constexpr std::size_t kMostNames = 2;  ///< a set of more names is no answer
 
-/// Who makes the data: the simulator that is tested (own), or equations of motion by hand with an integrator, a
-/// friction and a contact of their own (lagrangian), or MuJoCo.
+/// Who makes the data: the simulator that is tested (own), or equations of motion by hand with an integrator,
+/// a friction and a contact of their own (lagrangian), or MuJoCo.
 enum class World { own, lagrangian, mujoco };
 std::string to_string(World world);
 
@@ -29,8 +29,8 @@ struct Result {
   std::string with;      ///< what was hidden, as `plumbline twin --with` reads it, joined by spaces
   double bare = 0.0;     ///< held-out error of the model as it is, in floors; nothing fitted
   bool visible = false;  ///< `before` is at least kVisible
-  /// What is hidden shows that far at best, in floors, by the foreign world alone (worlds/visibility.h); 0: data
-  /// of our own, `before` decides.
+  /// What is hidden shows that far at best, in floors, by the foreign world alone (worlds/visibility.h); 0:
+  /// data of our own, `before` decides.
   double shown = 0.0;
   std::string verdict;
   std::string first;   ///< first effect named, "coulomb@mLA"; empty: none
@@ -57,7 +57,7 @@ struct Result {
 struct RunOptions {
   std::uint64_t seed = 1;
   World world = World::own;
-  bool lab = false;  ///< numbers without a stated uncertainty are scattered, too; foreign worlds only
+  bool lab = false;        ///< numbers without a stated uncertainty are scattered, too; foreign worlds only
   bool bare_only = false;  ///< held-out trials only and no diagnosis
   bool as_stated =
       false;            ///< the robot's own numbers are exactly those of the model, not scattered about them

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::validation {
 namespace {
@@ -260,7 +261,9 @@ std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<Free
       try {
         r = predictor.residual(data.windows[i], x0[i]);
       } catch (const std::runtime_error&) {
-        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]), 1e6);
+        // What cannot be integrated is not predicted: no number of floors says how far off it is.
+        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]),
+                                      std::numeric_limits<double>::infinity());
       }
       square[i] = predictor.squares(data.windows[i], r);
     });

@@ -26,8 +26,8 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work);
 
 class KeptResults;
 
-/// Trials and their windows, shared by all models that are tried on them. Those of role test are kept apart: what
-/// is fitted, and what chooses, never sees them.
+/// Trials and their windows, shared by all models that are tried on them. Those of role test are kept apart:
+/// what is fitted, and what chooses, never sees them.
 struct Data {
   std::vector<Trial> trials;
   std::vector<Window> windows;

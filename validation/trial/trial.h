@@ -11,8 +11,8 @@
 
 namespace plumbline::validation {
 
-/// train: may be fitted. held_out: is predicted, and decides between models. test: is neither fitted nor used to
-/// choose; the error of what was chosen is reported on it.
+/// train: may be fitted. held_out: is predicted, and decides between models. test: is neither fitted nor used
+/// to choose; the error of what was chosen is reported on it.
 enum class Role { train, held_out, test };
 /// "train", "held-out", "test"
 std::string to_string(Role role);

@@ -4,9 +4,9 @@
 //   x = d cos p - c sin p, z = -d sin p - c cos p,
 // V = m (g cos tilt z + g sin tilt x), T = J p'^2 / 2.
 //
-// Leg. Axes along -y: a link at absolute angle q has its centre of mass at c e(q) + d n(q) from its pivot, with
-// e = (sin q, -cos q), n = (cos q, sin q). Thigh angle a = p0 + p1, shin angle b = p0 - p1, the spring's bar turns
-// by 2 p1, the shin's bar by b. The knee is at L e(a). Kinetic energy
+// Leg. Axes along -y: a link at absolute angle q has its centre of mass at c e(q) + d n(q) from its pivot,
+// with e = (sin q, -cos q), n = (cos q, sin q). Thigh angle a = p0 + p1, shin angle b = p0 - p1, the spring's
+// bar turns by 2 p1, the shin's bar by b. The knee is at L e(a). Kinetic energy
 //   T = (J_t + m_s L^2) a'^2/2 + J_s b'^2/2 + h a' b' + J_sp (2 p1')^2/2 + J_cs b'^2/2,
 //   h(D) = m_s L (c_s cos D + d_s sin D), D = a - b = 2 p1.
 // In p: a' = p0' + p1', b' = p0' - p1', hence with A = J_t + m_s L^2, B = J_s + J_cs
@@ -14,6 +14,8 @@
 // h depends on p1 alone: k = dh/dp1 = 2 h'(D). Lagrange's terms of T = h (p0'^2 - p1'^2) + constants:
 //   d/dt dT/dp0' = ... + 2 k p1' p0';   d/dt dT/dp1' - dT/dp1 = ... - 2 k p1'^2 - k (p0'^2 - p1'^2)
 //                                                             = ... - k (p0'^2 + p1'^2).
+//
+// Cart. At s along the way x = s cos incline, z = s sin incline, V = m g (cos tilt z + sin tilt x).
 //
 // Hopper. Slides along z: body at y, carriage at y - s, foot at y - s + c.
 #include "tests/battery/worlds/equations.h"
@@ -67,7 +69,8 @@ void leg_bench_equations(const Rig& rig, const Vector& p, const Vector& rate, Ma
             2.0 * weight_moment(rig, spring_bar, D);
 }
 
-void hopper_equations(const Rig& rig, const Vector& /*p*/, const Vector& /*rate*/, Matrix& mass, Vector& bias) {
+void hopper_equations(const Rig& rig, const Vector& /*p*/, const Vector& /*rate*/, Matrix& mass,
+                      Vector& bias) {
   const double body = rig.bodies[0].mass;
   const double slider = rig.bodies[1].mass;
   const double foot = rig.bodies[2].mass;
@@ -78,6 +81,11 @@ void hopper_equations(const Rig& rig, const Vector& /*p*/, const Vector& /*rate*
   bias[0] = up * (body + slider + foot);
   bias[1] = -up * (slider + foot);
   bias[2] = up * foot;
+}
+
+void cart_equations(const Rig& rig, const Vector& /*p*/, const Vector& /*rate*/, Matrix& mass, Vector& bias) {
+  mass(0, 0) = rig.bodies.front().mass;
+  bias[0] = rig.bodies.front().mass * rig.gravity * std::sin(rig.incline + rig.tilt);
 }
 
 }  // namespace plumbline::battery::worlds

@@ -16,4 +16,7 @@ void leg_bench_equations(const Rig& rig, const Vector& p, const Vector& rate, Ma
 /// compression of the leg).
 void hopper_equations(const Rig& rig, const Vector& p, const Vector& rate, Matrix& mass, Vector& bias);
 
+/// A cart on a way that rises by rig.incline; body cart; p = (way).
+void cart_equations(const Rig& rig, const Vector& p, const Vector& rate, Matrix& mass, Vector& bias);
+
 }  // namespace plumbline::battery::worlds

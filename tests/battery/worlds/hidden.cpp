@@ -28,14 +28,15 @@ double stop_force(const Hidden& e, const PlaceMotion& m) {
   }
   const double in = e["side"] * m.v;
   const double root = in > 0.0 ? std::sqrt(in) : 0.0;
-  return -e["side"] * (e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in + e["root_damping"] * root);
+  return -e["side"] *
+         (e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in + e["root_damping"] * root);
 }
 
 double one_sided_spring(const Hidden& e, const PlaceMotion& m) {
   const double deep = e["side"] * (m.x - e["rest"]);
-  return deep <= 0.0 ? 0.0
-                     : -e["side"] * (e["stiffness"] * deep +
-                                     e["preload"] * std::tanh(deep / e["smoothing_length"]));
+  return deep <= 0.0
+             ? 0.0
+             : -e["side"] * (e["stiffness"] * deep + e["preload"] * std::tanh(deep / e["smoothing_length"]));
 }
 
 using Law = double (*)(const Hidden&, const PlaceMotion&);
@@ -45,7 +46,7 @@ struct Named {
   Law law;
 };
 
-constexpr std::array<Named, 21> kForces{{
+constexpr std::array<Named, 22> kForces{{
     {"viscous", [](const Hidden& e, const PlaceMotion& m) { return -e["damping"] * m.v; }},
     {"coulomb", [](const Hidden& e, const PlaceMotion& m) { return -e["level"] * sign_of(e, m.v); }},
     {"stribeck", [](const Hidden& e, const PlaceMotion& m) { return -sliding(e, m.v) * sign_of(e, m.v); }},
@@ -54,6 +55,10 @@ constexpr std::array<Named, 21> kForces{{
     {"coulomb_directional",
      [](const Hidden& e, const PlaceMotion& m) { return -e["difference"] * std::pow(sign_of(e, m.v), 2); }},
     {"quadratic", [](const Hidden& e, const PlaceMotion& m) { return -e["drag"] * m.v * std::abs(m.v); }},
+    {"gear_friction",
+     [](const Hidden& e, const PlaceMotion& m) {
+       return -e["coefficient"] * std::abs(m.load) * sign_of(e, m.v);
+     }},
     {"load_friction",
      [](const Hidden& e, const PlaceMotion& m) {
        return -e["coefficient"] * std::abs(m.load) * sign_of(e, m.v);
@@ -64,8 +69,8 @@ constexpr std::array<Named, 21> kForces{{
      }},
     {"spring", [](const Hidden& e, const PlaceMotion& m) { return e["stiffness"] * (e["rest"] - m.x); }},
     {"preload", [](const Hidden& e, const PlaceMotion&) { return -e["preload"]; }},
-    {"hardening",
-     [](const Hidden& e, const PlaceMotion& m) { return e["cubic_stiffness"] * std::pow(e["rest"] - m.x, 3); }},
+    {"hardening", [](const Hidden& e,
+                     const PlaceMotion& m) { return e["cubic_stiffness"] * std::pow(e["rest"] - m.x, 3); }},
     {"hysteresis",
      [](const Hidden& e, const PlaceMotion& m) {
        return -e["loss"] * std::abs(m.x - e["rest"]) * sign_of(e, m.v);
@@ -80,7 +85,9 @@ constexpr std::array<Named, 21> kForces{{
        return -e["level"] * std::exp(-u * u) * std::tanh(m.v / e["speed"]);
      }},
     {"pressing_friction",
-     [](const Hidden& e, const PlaceMotion& m) { return -e["damping"] * (1.0 + std::cos(e["waves"] * m.x)) * m.v; }},
+     [](const Hidden& e, const PlaceMotion& m) {
+       return -e["damping"] * (1.0 + std::cos(e["waves"] * m.x)) * m.v;
+     }},
     {"thickening_oil",
      [](const Hidden& e, const PlaceMotion& m) { return -e["drag"] * std::pow(std::abs(m.v), 3) * m.v; }},
     {"detent",
@@ -99,16 +106,26 @@ constexpr std::array<Named, 21> kForces{{
 }};
 
 const Named* find(const std::string& name) {
-  const auto* found = std::find_if(kForces.begin(), kForces.end(),
-                                   [&](const Named& one) { return name == one.name; });
+  const auto* found =
+      std::find_if(kForces.begin(), kForces.end(), [&](const Named& one) { return name == one.name; });
   return found == kForces.end() ? nullptr : found;
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 14> kOthers{
-    "torque_bias",    "torque_constant_error", "actuator_lag",           "command_delay",       "rotor_inertia",
-    "cable_stretch",  "backlash",              "added_mass",             "com_shift",           "gravity_tilt",
-    "encoder_offset", "encoder_scale",         "ground_stiffness_error", "ground_damping_error"};
+constexpr std::array<const char*, 14> kOthers{"torque_bias",
+                                              "torque_constant_error",
+                                              "actuator_lag",
+                                              "command_delay",
+                                              "rotor_inertia",
+                                              "cable_stretch",
+                                              "backlash",
+                                              "added_mass",
+                                              "com_shift",
+                                              "gravity_tilt",
+                                              "encoder_offset",
+                                              "encoder_scale",
+                                              "ground_stiffness_error",
+                                              "ground_damping_error"};
 
 }  // namespace
 

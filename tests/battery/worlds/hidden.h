@@ -1,5 +1,5 @@
-// Physical effects as a foreign world plays them: written from the textbooks' equations, sharing nothing with the
-// laws of the program that is tested.
+// Physical effects as a foreign world plays them: written from the textbooks' equations, sharing nothing with
+// the laws of the program that is tested.
 #pragma once
 
 #include <map>

@@ -7,11 +7,11 @@ namespace plumbline::battery::worlds {
 namespace {
 
 // One standard deviation each.
-constexpr double kRatio = 3e-4;     // of a drum's or pulley's radius: 10 um on 30 mm
-constexpr double kCentre = 3e-4;    // m, a centre of mass balanced on an edge
-constexpr double kLength = 2e-4;    // m, between two bearings
-constexpr double kZeroCounts = 0.5; // of a sensor's zero, set against a pin: half a count
-constexpr double kDelay = 3e-5;     // s, from a controller's output to the amplifier's current
+constexpr double kRatio = 3e-4;      // of a drum's or pulley's radius: 10 um on 30 mm
+constexpr double kCentre = 3e-4;     // m, a centre of mass balanced on an edge
+constexpr double kLength = 2e-4;     // m, between two bearings
+constexpr double kZeroCounts = 0.5;  // of a sensor's zero, set against a pin: half a count
+constexpr double kDelay = 3e-5;      // s, from a controller's output to the amplifier's current
 
 void add_bodies(const model::Model& model, std::vector<Unknown>& list) {
   for (const model::Body& body : model.skeleton.bodies) {
@@ -84,9 +84,8 @@ std::vector<Unknown> stated(const model::Model& model) {
 std::vector<Unknown> unstated(const Rig& rig) {
   std::vector<Unknown> list;
   for (const Motor& motor : rig.motors) {
-    list.push_back({"ratio of " + motor.name, [name = motor.name](Rig& r, double d) {
-                      r.motor(name)->ratio *= 1.0 + d * kRatio;
-                    }});
+    list.push_back({"ratio of " + motor.name,
+                    [name = motor.name](Rig& r, double d) { r.motor(name)->ratio *= 1.0 + d * kRatio; }});
     list.push_back({"delay of " + motor.name, [name = motor.name](Rig& r, double d) {
                       r.effects.push_back({"command_delay", name, {{"delay", std::abs(d) * kDelay}}});
                     }});
@@ -118,8 +117,9 @@ void scatter(const std::vector<Unknown>& unknowns, Draw& draw, Rig& rig) {
 
 // A ratio is a sensor's scale, a zero and a centre of mass are a preload or a tilt, a delay is nearly a lag.
 bool is_of_the_lab(const std::string& effect) {
-  constexpr std::array<const char*, 8> kNames{"encoder_scale", "encoder_offset", "com_shift",     "gravity_tilt",
-                                              "preload",       "torque_bias",    "command_delay", "actuator_lag"};
+  constexpr std::array<const char*, 8> kNames{"encoder_scale", "encoder_offset", "com_shift",
+                                              "gravity_tilt",  "preload",        "torque_bias",
+                                              "command_delay", "actuator_lag"};
   return std::any_of(kNames.begin(), kNames.end(), [&](const char* name) { return effect == name; });
 }
 

@@ -17,8 +17,8 @@ struct Unknown {
   std::function<void(Rig& rig, double deviations)> move;
 };
 
-/// Masses (their inertia with them), rotor inertias, torque constants and values of effects: what the diagnosis
-/// may free.
+/// Masses (their inertia with them), rotor inertias, torque constants and values of effects: what the
+/// diagnosis may free.
 std::vector<Unknown> stated(const model::Model& model);
 
 /// What it may not free: how a laboratory would know ratios, centres of mass, lengths, sensors' zeros and the

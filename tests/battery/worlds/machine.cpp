@@ -33,7 +33,8 @@ Machine::Machine(const Rig& rig, const std::vector<std::string>& locked, const V
   add_effects();
 }
 
-// A motor is tied to its coordinate by its ratio, or, where its gear gives, moves by itself. A locked motor stays.
+// A motor is tied to its coordinate by its ratio, or, where its gear gives, moves by itself. A locked motor
+// stays.
 void Machine::build_coupling(const std::vector<std::string>& locked, const Vector& start) {
   const auto motors = static_cast<Eigen::Index>(rig_.motors.size());
   const Eigen::Index all = n_ + motors;
@@ -107,7 +108,7 @@ void Machine::add_effects() {
     if (has_state(effect)) {
       acting.state = static_cast<int>(states_++);
     }
-    load_matters_ = load_matters_ || effect.effect == "load_friction";
+    load_matters_ = load_matters_ || effect.effect == "load_friction" || effect.effect == "gear_friction";
     acting_.push_back(acting);
   }
 }

@@ -1,6 +1,6 @@
 // A rig in motion: its equations with what couples links and motors, and their integration by the classical
-// Runge-Kutta method with fixed steps of 20 us. No event is looked for: stops, play and ground are met within a
-// step.
+// Runge-Kutta method with fixed steps of 20 us. No event is looked for: stops, play and ground are met within
+// a step.
 #pragma once
 
 #include <functional>

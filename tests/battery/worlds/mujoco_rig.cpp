@@ -22,8 +22,8 @@ std::string inertial(const Link& link) {
   std::ostringstream text;
   text.precision(17);
   // MuJoCo asks for inertias that a solid body can have; what turns out of the plane does no work.
-  text << "<inertial pos='" << link.across << " 0 " << -link.along << "' mass='" << link.mass << "' diaginertia='"
-       << link.central << ' ' << link.central << ' ' << link.central << "'/>";
+  text << "<inertial pos='" << link.across << " 0 " << -link.along << "' mass='" << link.mass
+       << "' diaginertia='" << link.central << ' ' << link.central << ' ' << link.central << "'/>";
   return text.str();
 }
 
@@ -31,8 +31,8 @@ std::string inertial(const Link& link) {
 struct Tree {
   std::string bodies;
   std::vector<std::string> joints;
-  Eigen::MatrixXd coordinates;      // coordinates x joints
-  std::vector<std::string> ties;    // equality constraints between joints
+  Eigen::MatrixXd coordinates;    // coordinates x joints
+  std::vector<std::string> ties;  // equality constraints between joints
 };
 
 std::string hinge(const std::string& name, const std::string& axis, const char* type = "hinge") {
@@ -48,8 +48,9 @@ Tree tree_of(const Rig& rig, const std::string& robot) {
     tree.joints = {"shoulder"};
     tree.coordinates = Eigen::MatrixXd::Ones(1, 1);
   } else if (robot == "leg_bench") {
-    b << "<body name='thigh'>" << hinge("hip", "0 -1 0") << inertial(rig.bodies[0]) << "<body name='shin' pos='0 0 "
-      << -rig.length << "'>" << hinge("knee", "0 -1 0") << inertial(rig.bodies[1]) << "</body></body>"
+    b << "<body name='thigh'>" << hinge("hip", "0 -1 0") << inertial(rig.bodies[0])
+      << "<body name='shin' pos='0 0 " << -rig.length << "'>" << hinge("knee", "0 -1 0")
+      << inertial(rig.bodies[1]) << "</body></body>"
       << "<body name='cspring'>" << hinge("csp", "0 -1 0") << inertial(rig.bodies[2]) << "</body>"
       << "<body name='cshin'>" << hinge("csh", "0 -1 0") << inertial(rig.bodies[3]) << "</body>";
     tree.joints = {"hip", "knee", "csp", "csh"};
@@ -57,10 +58,18 @@ Tree tree_of(const Rig& rig, const std::string& robot) {
     tree.coordinates << 1.0, 0.5, 0.0, 0.0,  //
         0.0, -0.5, 0.0, 0.0;
     tree.ties = {"csp:1 knee:1", "csh:1 hip:-1 knee:-1"};
+  } else if (robot == "cart") {
+    std::ostringstream axis;
+    axis.precision(17);
+    axis << std::cos(rig.incline) << " 0 " << std::sin(rig.incline);
+    b << "<body name='cart'>" << hinge("way", axis.str(), "slide") << inertial(rig.bodies[0]) << "</body>";
+    tree.joints = {"way"};
+    tree.coordinates = Eigen::MatrixXd::Ones(1, 1);
   } else {
-    b << "<body name='body'>" << hinge("rail", "0 0 1", "slide") << inertial(rig.bodies[0]) << "<body name='slider'>"
-      << hinge("guide", "0 0 -1", "slide") << inertial(rig.bodies[1]) << "<body name='foot'>"
-      << hinge("leg", "0 0 1", "slide") << inertial(rig.bodies[2]) << "</body></body></body>";
+    b << "<body name='body'>" << hinge("rail", "0 0 1", "slide") << inertial(rig.bodies[0])
+      << "<body name='slider'>" << hinge("guide", "0 0 -1", "slide") << inertial(rig.bodies[1])
+      << "<body name='foot'>" << hinge("leg", "0 0 1", "slide") << inertial(rig.bodies[2])
+      << "</body></body></body>";
     tree.joints = {"rail", "guide", "leg"};
     tree.coordinates = Eigen::MatrixXd::Identity(3, 3);
   }
@@ -124,7 +133,8 @@ std::string xml_of(const Rig& rig, const Tree& tree, const std::vector<std::stri
   for (const Motor& motor : rig.motors) {
     x << "<body name='rotor_" << motor.name << "'><joint name='" << motor.name
       << "' type='hinge' axis='0 1 0' frictionloss='" << friction_loss(rig, motor.name)
-      << "' solreffriction='0.0002 1' solimpfriction='0.9999 0.9999 0.001'/><inertial pos='0 0 0' mass='0.001' "
+      << "' solreffriction='0.0002 1' solimpfriction='0.9999 0.9999 0.001'/><inertial pos='0 0 0' "
+         "mass='0.001' "
       << "diaginertia='" << motor.inertia << ' ' << motor.inertia << ' ' << motor.inertia << "'/></body>";
   }
   x << "</worldbody><tendon>";
@@ -141,7 +151,8 @@ std::string xml_of(const Rig& rig, const Tree& tree, const std::vector<std::stri
       equal << "<tendon tendon1='gear_" << motor.name << "' " << kRigid << "/>";
     }
     if (std::find(locked.begin(), locked.end(), motor.name) != locked.end()) {
-      equal << "<joint joint1='" << motor.name << "' polycoef='LOCK_" << motor.name << " 0 0 0 0' " << kRigid << "/>";
+      equal << "<joint joint1='" << motor.name << "' polycoef='LOCK_" << motor.name << " 0 0 0 0' " << kRigid
+            << "/>";
     }
   }
   for (const Place& place : rig.places) {
@@ -155,7 +166,8 @@ std::string xml_of(const Rig& rig, const Tree& tree, const std::vector<std::stri
           terms << ' ' << tree.joints[j] << ':' << factor;
         }
       }
-      attributes << "frictionloss='" << level << "' solreffriction='0.0002 1' solimpfriction='0.9999 0.9999 0.001'";
+      attributes << "frictionloss='" << level
+                 << "' solreffriction='0.0002 1' solimpfriction='0.9999 0.9999 0.001'";
       x << tendon("friction_" + place.name, terms.str(), attributes.str());
     }
   }
@@ -228,7 +240,8 @@ void add_forces(const mjModel* /*model*/, mjData* data) {
   for (const Ground& ground : rig.grounds) {
     Q.head(n) += ground.row * ground_force_of(rig, ground, full, rate);
   }
-  Eigen::Map<Eigen::VectorXd>(data->qfrc_passive, running->to_full.cols()) += running->to_full.transpose() * Q;
+  Eigen::Map<Eigen::VectorXd>(data->qfrc_passive, running->to_full.cols()) +=
+      running->to_full.transpose() * Q;
 }
 
 /// Commands over a sample as the motors feel them.
@@ -251,8 +264,7 @@ class Delivery {
       const double back = (t + 0.5 * kStep - delay_[i]) / period;
       const double held = given(m, std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::floor(back))));
       // The lag's own solution for a held command, at the middle of the step.
-      u[m] = lag_[i] <= 0.0 || begun_ == 0 ? held
-                                           : held + (u[m] - held) * std::exp(-kStep / lag_[i]);
+      u[m] = lag_[i] <= 0.0 || begun_ == 0 ? held : held + (u[m] - held) * std::exp(-kStep / lag_[i]);
     }
     ++begun_;
   }

@@ -49,9 +49,8 @@ void vary(Experiment& experiment, Draw& draw) {
 }  // namespace
 
 bool can_play(const Case& one) {
-  return has_rig(one.robot) && std::all_of(one.rows.begin(), one.rows.end(), [](const Row& row) {
-           return is_known(row.effect);
-         });
+  return has_rig(one.robot) &&
+         std::all_of(one.rows.begin(), one.rows.end(), [](const Row& row) { return is_known(row.effect); });
 }
 
 Played play(const Case& one, const model::Model& bare, const std::vector<std::string>& hidden, Draw& draw,

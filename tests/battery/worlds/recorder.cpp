@@ -41,7 +41,8 @@ int index_of(const Rig& rig, const std::string& sensor) {
   throw std::invalid_argument("the rig has no sensor " + sensor);
 }
 
-/// u = kv (kp (r - y) - dy/dt), limited, from counts; dy/dt over so many samples (Janot and Brunot's cascade).
+/// u = kv (kp (r - y) - dy/dt), limited, from counts; dy/dt over so many samples (Janot and Brunot's
+/// cascade).
 class Cascade {
  public:
   Cascade(const validation::Controller& law, const Rig& rig, double period)
@@ -100,8 +101,9 @@ Recording record(const Rig& rig, const Experiment& experiment, const model::Mode
   }
   const Eigen::Index samples = experiment.time.size();
   recording.motion =
-      mujoco.empty() ? machine.run(machine.start_state(first), 0, samples, experiment.period, commander)
-                     : run_in_mujoco(rig, mujoco, experiment.locked, start, samples, experiment.period, commander);
+      mujoco.empty()
+          ? machine.run(machine.start_state(first), 0, samples, experiment.period, commander)
+          : run_in_mujoco(rig, mujoco, experiment.locked, start, samples, experiment.period, commander);
   if (!recording.motion.positions.allFinite()) {
     throw std::runtime_error("the foreign world's motion is not finite");
   }

@@ -1,6 +1,7 @@
 #include "tests/battery/worlds/rig.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/battery/worlds/equations.h"
@@ -87,8 +88,11 @@ Rig leg_bench(const model::Model& model) {
     }
   }
   rig.motors = {motor_of(model, "mLA", 0), motor_of(model, "mLS", 1)};
-  rig.places = {{"leg_angle", row({1.0, 0.0})}, {"leg_shape", row({0.0, 1.0})}, {"thigh", row({1.0, 1.0})},
-                {"shin", row({1.0, -1.0})},     {"knee", row({0.0, -2.0})}};
+  rig.places = {{"leg_angle", row({1.0, 0.0})},
+                {"leg_shape", row({0.0, 1.0})},
+                {"thigh", row({1.0, 1.0})},
+                {"shin", row({1.0, -1.0})},
+                {"knee", row({0.0, -2.0})}};
   return rig;
 }
 
@@ -100,9 +104,8 @@ Rig hopper(const model::Model& model) {
     rig.bodies.push_back(link_of(model, body));
   }
   rig.motors = {motor_of(model, "drive", 1)};
-  rig.places = {{"height", row({1.0, 0.0, 0.0})},
-                {"carriage", row({0.0, 1.0, 0.0})},
-                {"spring", row({0.0, 0.0, 1.0})}};
+  rig.places = {
+      {"height", row({1.0, 0.0, 0.0})}, {"carriage", row({0.0, 1.0, 0.0})}, {"spring", row({0.0, 0.0, 1.0})}};
   Ground ground;
   ground.row = row({1.0, -1.0, 1.0});
   ground.constant = model.feet.front().point.z();
@@ -110,6 +113,18 @@ Rig hopper(const model::Model& model) {
   for (const model::ContactSwitch& one : model.switches) {
     rig.switches.push_back(one.name);
   }
+  return rig;
+}
+
+Rig cart(const model::Model& model) {
+  Rig rig;
+  rig.coordinates = 1;
+  rig.equations = cart_equations;
+  rig.bodies = {link_of(model, "cart")};
+  const Eigen::Vector3d axis = model.skeleton.joints.front().axis;
+  rig.incline = std::atan2(axis.z(), axis.x());
+  rig.motors = {motor_of(model, "belt", 0)};
+  rig.places = {{"cart", row({1.0})}};
   return rig;
 }
 
@@ -215,7 +230,7 @@ const Place* Rig::place(const std::string& name) const {
 }
 
 bool has_rig(const std::string& robot) {
-  return robot == "pendulum" || robot == "leg_bench" || robot == "hopper";
+  return robot == "pendulum" || robot == "leg_bench" || robot == "hopper" || robot == "cart";
 }
 
 Rig rig_of(const std::string& robot, const model::Model& model) {
@@ -224,6 +239,7 @@ Rig rig_of(const std::string& robot, const model::Model& model) {
   }
   Rig rig = robot == "pendulum"    ? pendulum(model)
             : robot == "leg_bench" ? leg_bench(model)
+            : robot == "cart"      ? cart(model)
                                    : hopper(model);
   rig.gravity = model.skeleton.gravity.norm();
   add_sensors(model, rig);

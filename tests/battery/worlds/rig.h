@@ -1,5 +1,5 @@
-// A robot on a bench as a foreign world sees it: links with hand-derived Lagrangian equations, motors on gears,
-// sensors, maybe a ground under a foot.
+// A robot on a bench as a foreign world sees it: links with hand-derived Lagrangian equations, motors on
+// gears, sensors, maybe a ground under a foot.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +27,9 @@ struct Link {
 
 struct Motor {
   std::string name;
-  int drives = 0;               ///< which of the links' coordinates
-  double ratio = 1.0;           ///< motor's position per that coordinate
-  double inertia = 0.0;         ///< of all that turns with it, at the motor
+  int drives = 0;                ///< which of the links' coordinates
+  double ratio = 1.0;            ///< motor's position per that coordinate
+  double inertia = 0.0;          ///< of all that turns with it, at the motor
   double torque_per_unit = 1.0;  ///< of the command, over what the model states times its own
 };
 
@@ -64,13 +64,15 @@ struct Rig {
   std::vector<Link> bodies;
   double gravity = 9.80665, tilt = 0.0;  ///< tilt: of gravity about the world's y, rad
   double length = 0.0;                   ///< thigh (bench)
+  double incline = 0.0;                  ///< of the way (cart), rad
   std::vector<Motor> motors;
   std::vector<Place> places;
   std::vector<Sensor> sensors;
   std::vector<Ground> grounds;
   std::vector<std::string> switches;  ///< names, one for each ground
-  double switch_force = 0.0;          ///< on the foot, N, from which its switch is closed; 0: while it is in the ground
-  std::vector<Hidden> effects;        ///< the robot's own and what is hidden
+  double switch_force =
+      0.0;  ///< on the foot, N, from which its switch is closed; 0: while it is in the ground
+  std::vector<Hidden> effects;  ///< the robot's own and what is hidden
   Link& body(const std::string& name);
   Motor* motor(const std::string& name);
   const Place* place(const std::string& name) const;

@@ -41,7 +41,8 @@ class Seen {
 
   Eigen::VectorXd run(const Rig& rig, const Window& window, const Eigen::VectorXd* moved = nullptr) const {
     const Machine machine(rig, truth_.locked, truth_.start);
-    State x = machine.state_of(truth_.motion.positions.col(window.first), truth_.motion.rates.col(window.first));
+    State x =
+        machine.state_of(truth_.motion.positions.col(window.first), truth_.motion.rates.col(window.first));
     if (moved != nullptr) {
       x.head(2 * machine.positions()) += *moved;
     }
