@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"unknown_role",
                  {{kTrial, "role: train", "role: trained"}},
                  kCompare,
-                 {"role: found \"trained\", expected train or held-out"}},
+                 {"role: found \"trained\", expected train, held-out or test"}},
         BadInput{"unknown_sensor",
                  {{kTrial, "  shoulder:", "  sholder:"}},
                  kCompare,

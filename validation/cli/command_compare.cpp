@@ -83,6 +83,9 @@ void print(const Comparison& comparison) {
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
       comparison.scores.train, comparison.scores.held_out);
+  if (comparison.scores.test > 0.0) {
+    fmt::print("On the trials of role test, which neither fit nor choose: {:.3f}\n", comparison.scores.test);
+  }
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ struct Comparison {
   std::vector<LostWindow> lost;    ///< of compare(model, data) only: not in any error
 };
 
-/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted).
-/// Windows that cannot be integrated are left out and named.
+/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted), those
+/// of the tests too. Windows that cannot be integrated are left out and named.
 Comparison compare(const model::Model& model, const Data& data);
 
 /// The same from an estimate that is at hand.

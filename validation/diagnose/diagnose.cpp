@@ -106,6 +106,8 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
         diagnose_windows(with_zero_errors(model, kept), catalogue, some, options, progress, diagnosis);
     finish(kept, tried, some, options, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
+    diagnosis.test_before = test_error(model, data);
+    diagnosis.test_after = test_error(fitted_model(diagnosis.final_stage), data);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {

@@ -119,6 +119,9 @@ struct Diagnosis {
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
   Precision precision;
+  /// Errors on the trials of role test, in floors, of the model as given and of the final one; 0 without such
+  /// trials. They are computed when all is decided.
+  double test_before = 0.0, test_after = 0.0;
   std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };
