@@ -9,8 +9,8 @@ trap 'rm -rf -- "$work"' EXIT
 cd -- "$root"
 mkdir -p docs/images
 
-"$program" hop robots/mabel/mabel_planar.yaml robots/mabel/hopping.yaml --hops 6 -o "$work/plane.csv"
-"$program" hop robots/mabel/mabel.yaml robots/mabel/hopping_boom.yaml --hops 4 -o "$work/boom.csv"
+"$program" simulate --scenario robots/mabel/scenarios/hopping.yaml --seconds 4 -o "$work/plane.csv"
+"$program" simulate --scenario robots/mabel/scenarios/hopping_boom.yaml --seconds 3 -o "$work/boom.csv"
 
 draw() { "$program" render --trace "$work/$1.csv" --model "robots/mabel/$2" "${@:4}" -o "docs/images/$3.png"; }
 

@@ -25,7 +25,7 @@ struct Robot {
   std::string name;
   std::string model;
   std::vector<std::string> experiments;
-  std::string hopping;  ///< in place of experiments: a controller under which it hops, from drawn starts
+  std::string scenario;  ///< in place of experiments: a controller under which it hops, from drawn starts
 };
 
 /// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is

@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
     plumbline::cli::add_effects(app, outcome);
     plumbline::cli::add_check(app, outcome);
     plumbline::cli::add_simulate(app, outcome);
-    plumbline::cli::add_hop(app, outcome);
     plumbline::cli::add_validate(app, outcome);
+    plumbline::cli::add_tune(app, outcome);
     plumbline::cli::add_compare(app, outcome);
     plumbline::cli::add_fit(app, outcome);
     plumbline::cli::add_diagnose(app, outcome);
