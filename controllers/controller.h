@@ -15,6 +15,7 @@
  * step() is real-time code: it neither allocates, blocks, throws nor calls the operating system, and its time is
  * bounded. Equal inputs after reset() give equal outputs, to the last bit: no clock, no random numbers, no state
  * outside `self`. */
+/* clang-format off */
 #ifndef PLUMBLINE_CONTROLLER_H
 #define PLUMBLINE_CONTROLLER_H
 
@@ -84,7 +85,10 @@ typedef struct plumbline_controller_api {
   void (*destroy)(void *self); /* NULL is allowed */
 } plumbline_controller_api;
 
-/* The one function that the library exports. Never NULL. */
+/* The one function that the library exports, also where it is compiled with hidden symbols. Never NULL. */
+#if defined(__GNUC__)
+__attribute__((visibility("default")))
+#endif
 const plumbline_controller_api *plumbline_controller(void);
 
 /* Its name, for dlsym. */

@@ -37,8 +37,14 @@ api::Loaded load(const Asked& asked, const validation::StopFlag& stop) {
 /// By trial: time, and for each sensor what was measured and predicted.
 py::list curves_of(const api::Loaded& loaded, const std::vector<Eigen::MatrixXd>& predicted) {
   py::list curves;
-  for (std::size_t t = 0; t < loaded.data->trials.size(); ++t) {
-    const validation::Trial& trial = loaded.data->trials[t];
+  std::vector<const validation::Trial*> trials;
+  for (const auto* list : {&loaded.data->trials, &loaded.data->tests}) {
+    for (const validation::Trial& trial : *list) {
+      trials.push_back(&trial);
+    }
+  }
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const validation::Trial& trial = *trials[t];
     py::dict channels;
     for (std::size_t c = 0; c < trial.measured.size(); ++c) {
       const std::string& sensor = trial.measured[c].sensor;
@@ -46,7 +52,7 @@ py::list curves_of(const api::Loaded& loaded, const std::vector<Eigen::MatrixXd>
       one["measured"] = py::cast(trial.measured[c].values);
       one["predicted"] = py::cast(Eigen::VectorXd(predicted[t].col(static_cast<Eigen::Index>(c))));
       one["unit"] = model::reading_unit(loaded.model, sensor);
-      one["floor"] = loaded.model.find_sensor(sensor)->floor();
+      one["floor"] = sensor_of(loaded.model, trial.measured[c]).floor();
       channels[py::str(sensor)] = one;
     }
     py::dict curve;

@@ -25,12 +25,13 @@ std::vector<api::Channel> channels_of(const Arrays& arrays) {
 }
 
 validation::Role role_of(const std::string& name) {
-  for (const validation::Role role : {validation::Role::train, validation::Role::held_out}) {
+  for (const validation::Role role :
+       {validation::Role::train, validation::Role::held_out, validation::Role::test}) {
     if (name == validation::to_string(role)) {
       return role;
     }
   }
-  throw InputError({"", 0, "role"}, "\"" + name + "\"", "\"train\" or \"held-out\"");
+  throw InputError({"", 0, "role"}, "\"" + name + "\"", "\"train\", \"held-out\" or \"test\"");
 }
 
 TrialHandle from_arrays(const ModelHandle& model, const std::string& name, const std::string& title,

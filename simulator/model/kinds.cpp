@@ -10,11 +10,12 @@ std::string reading_unit(const Model& model, const std::string& sensor) {
   if (known != nullptr && known->is_force_plate()) {
     return force_unit(false);
   }
-  return position_unit(model.place_is_angular(effects::Place::sensor, sensor));
+  const std::string position = position_unit(model.place_is_angular(effects::Place::sensor, sensor));
+  return known != nullptr && known->rate ? position + "/s" : position;
 }
 
 std::string reading_column(const Sensor& sensor) {
-  return (sensor.is_force_plate() ? "F_" : "q_") + sensor.name;
+  return (sensor.is_force_plate() ? "F_" : sensor.rate ? "v_" : "q_") + sensor.name;
 }
 
 std::string ratio_unit(bool motor_angular, bool coordinate_angular) {

@@ -85,7 +85,7 @@ std::vector<std::string> Model::places(effects::Place place) const {
       break;
     case effects::Place::sensor:
       for (const Sensor& sensor : sensors) {
-        if (!sensor.is_force_plate()) {  // the laws at sensors are those of encoders
+        if (sensor.shows_position()) {  // the laws at sensors are those of encoders
           names.push_back(sensor.name);
         }
       }

@@ -46,6 +46,9 @@ struct Joint {
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_CJ = Eigen::Isometry3d::Identity();
   Arc arc;  ///< of a prismatic joint, in J
+  /// What the skeleton file itself says under <dynamics>: N m s/rad and N m (N s/m and N); 0: nothing.
+  double damping = 0.0, friction = 0.0;
+  double armature = 0.0;  ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
 };
 
 struct Skeleton {
@@ -53,6 +56,7 @@ struct Skeleton {
   std::vector<Body> bodies;   ///< parents before children
   std::vector<Joint> joints;  ///< one for each body (bodies fixed to the world have a fixed joint)
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
+  std::vector<std::string> left_out{};  ///< what the file says and nobody takes over, a sentence each
 };
 
 /// factor * (joint, pulley or coordinate position)
@@ -121,25 +125,34 @@ struct EffectUse {
   std::string label() const;  ///< "viscous at mLA"
 };
 
-/// One measured channel: a position, or the vertical force of the ground on some feet (a force plate).
+/// One measured channel: a position, its rate (tachometer, gyroscope), or the vertical force of the ground on
+/// some feet (a force plate).
 struct Sensor {
   std::string name;
   std::string measures;   ///< coordinate, motor or pulley; of a force plate empty
-  double resolution = 0;  ///< position (or force) per count, SI; 0: continuous
+  double resolution = 0;  ///< position (rate, force) per count, SI; 0: continuous
   double offset = 0;      ///< SI
   double noise = 0;       ///< standard deviation, SI
   std::string source;
   std::vector<int> feet{};  ///< that stand on the force plate, indices in Model::feet; else empty
+  bool rate = false;        ///< it shows the rate of change of what it measures
   bool is_force_plate() const { return !feet.empty(); }
+  bool shows_position() const { return !rate && feet.empty(); }
   /// Residual that the sensor alone would leave: sqrt(resolution^2/12 + noise^2).
   double floor() const;
 };
 
-/// A switch that is closed (1) while a foot is in the ground, else open (0).
+/// A switch that is closed (1) while a foot is in the ground, else open (0); a real one when the ground's
+/// force is above a threshold, late, and with contacts that bounce.
 struct ContactSwitch {
   std::string name;
   int foot = 0;  ///< index in Model::feet
   std::string source;
+  double threshold = 0.0;             ///< vertical force above which it is closed, N; 0: at the surface
+  double closes_late = 0.0;           ///< s from the force to the reading, when it closes
+  double opens_late = 0.0;            ///< s, when it opens
+  double lateness_uncertainty = 0.0;  ///< one standard deviation of either, s
+  double bounce = 0.02;               ///< a reading that changes back within this time is no event, s
 };
 
 /// A coordinate or motor held at a value by hand or by a clamp.

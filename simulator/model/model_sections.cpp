@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/from_data_sheets.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
 #include "simulator/trace/units.h"
@@ -93,6 +94,13 @@ std::string read_command_unit(const YamlNode& node, bool angular) {
 /// volt.
 void read_torque_constant(const YamlNode& node, Motor& motor) {
   const std::optional<YamlNode> given = node.find("torque_constant");
+  if (const auto winding = node.find("winding")) {
+    if (given) {
+      given->refuse("a torque constant beside a winding", "one of them: a winding has its own");
+    }
+    read_winding(*winding, motor);
+    return;
+  }
   if (!given && commands_force(motor)) {
     motor.torque_constant = one("the command is a torque or force");
     return;
@@ -118,7 +126,7 @@ void read_torque_constant(const YamlNode& node, Motor& motor) {
 
 Motor read_motor(const std::string& name, const YamlNode& node) {
   check_name(name, node);
-  node.allow_keys({"command_unit", "rotor_inertia", "torque_constant", "torque_limit"});
+  node.allow_keys({"command_unit", "rotor_inertia", "torque_constant", "winding", "torque_limit"});
   Motor motor;
   motor.name = name;
   const YamlNode inertia = node.at("rotor_inertia");
@@ -184,14 +192,15 @@ Ratio read_motor_ratio(const std::string& name, const YamlNode& node, const Mode
   return ratio;
 }
 
-double read_resolution(const YamlNode& node, bool angular, std::string& source) {
+double read_resolution(const YamlNode& node, const std::string& unit, bool counts_turns,
+                       std::string& source) {
   const auto step = node.find("resolution");
   const auto counts = node.find("counts_per_turn");
   if (step && counts) {
     counts->refuse("both resolution and counts_per_turn", "one of them");
   }
   if (step) {
-    const Quantity resolution = read_quantity(*step, {position_unit(angular), Sign::not_negative, false, {}});
+    const Quantity resolution = read_quantity(*step, {unit, Sign::not_negative, false, {}});
     source = resolution.source;
     return resolution.value;
   }
@@ -199,8 +208,9 @@ double read_resolution(const YamlNode& node, bool angular, std::string& source) 
   if (!counts) {
     return gear ? (gear->refuse("a gear without counts_per_turn", "both"), 0.0) : 0.0;
   }
-  if (!angular) {
-    counts->refuse("counts per turn of a linear place", "resolution: {value: ..., unit: m, source: ...}");
+  if (!counts_turns) {
+    counts->refuse("counts per turn where none are counted",
+                   "resolution: {value: ..., unit: " + unit + ", source: ...}");
   }
   const double per_turn = counts->number();
   const double turns = gear ? gear->number() : 1.0;
@@ -226,7 +236,7 @@ void read_noise(const YamlNode& node, const std::string& unit, Sensor& sensor) {
 Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& model) {
   check_name(name, node);
   node.allow_keys(
-      {"measures", "counts_per_turn", "gear", "resolution", "offset", "noise", "source", "assumed"});
+      {"measures", "rate", "counts_per_turn", "gear", "resolution", "offset", "noise", "source", "assumed"});
   Sensor sensor;
   sensor.name = name;
   sensor.measures = node.at("measures").text();
@@ -238,11 +248,18 @@ Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& m
   }
   require_known(node.at("measures"), sensor.measures, measurable, "coordinate, motor, pulley or joint");
   const bool angular = is_angular(model, sensor.measures);
-  sensor.resolution = read_resolution(node, angular, sensor.source);
+  const auto rate = node.find("rate");
+  sensor.rate = rate && rate->flag();
+  const std::string unit = position_unit(angular) + (sensor.rate ? "/s" : "");
+  sensor.resolution = read_resolution(node, unit, angular && !sensor.rate, sensor.source);
   if (const auto offset = node.find("offset")) {
-    sensor.offset = read_quantity(*offset, {position_unit(angular), Sign::any, false, {}}).value;
+    sensor.offset = read_quantity(*offset, {unit, Sign::any, false, {}}).value;
   }
-  read_noise(node, position_unit(angular), sensor);
+  read_noise(node, unit, sensor);
+  if (sensor.rate && sensor.floor() == 0.0) {
+    node.refuse("neither resolution nor noise above zero",
+                "one of them: together they are the sensor's floor");
+  }
   if (node.has("source") || node.has("assumed") || !node.has("resolution")) {
     sensor.source = read_origin(node).text;
   }
@@ -275,8 +292,20 @@ Sensor read_force_plate(const std::string& name, const YamlNode& node, const Mod
 
 ContactSwitch read_switch(const std::string& name, const YamlNode& node, const Model& model) {
   check_name(name, node);
-  node.allow_keys({"contact", "source", "assumed"});
-  return {name, foot_of(node.at("contact"), model), read_origin(node).text};
+  node.allow_keys({"contact", "threshold", "closes_late", "opens_late", "lateness_uncertainty", "bounce",
+                   "source", "assumed"});
+  ContactSwitch contact{name, foot_of(node.at("contact"), model), read_origin(node).text};
+  const auto read = [&](const char* key, const char* unit, double& value) {
+    if (const auto given = node.find(key)) {
+      value = read_quantity(*given, {unit, Sign::not_negative, false, {}}).value;
+    }
+  };
+  read("threshold", "N", contact.threshold);
+  read("closes_late", "s", contact.closes_late);
+  read("opens_late", "s", contact.opens_late);
+  read("lateness_uncertainty", "s", contact.lateness_uncertainty);
+  read("bounce", "s", contact.bounce);
+  return contact;
 }
 
 Eigen::Vector3d read_point(const YamlNode& node) {

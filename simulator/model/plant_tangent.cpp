@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "simulator/effects/parameters.h"
+#include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -155,7 +156,7 @@ void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd down = Eigen::VectorXd::Zero(nx_);
   for (int m = 0; m < motors(); ++m) {
-    const double commanded = torque_gain(m) * command[m];
+    const double commanded = asked_torque(*this, m, command[m]);
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
       for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
         const int column = slot.state + k;
@@ -286,7 +287,7 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
                                        const double* x, const Eigen::MatrixXd& A, effects::Values moved,
                                        double step, Eigen::Ref<Eigen::VectorXd> column) {
   const double gain = torque_gain(motor);
-  const double here = gain * sample.command[motor];
+  const double here = asked_torque(*this, motor, sample.command[motor]);
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
@@ -385,8 +386,11 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
 }
 
 void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
-  C = output_map_;
-  Eigen::VectorXd y(sensors());
+  C.setZero(sensors(), 2 * nz_);
+  for (int s = 0; s < sensors(); ++s) {
+    const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
+    C.row(s).segment(rate ? nz_ : 0, nz_) = output_map_.row(s);
+  }
   Eigen::VectorXd actual = output_map_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + output_offset_;
   for (int s = 0; s < sensors(); ++s) {
     const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "simulator/model/effect_list.h"
+#include "simulator/model/from_data_sheets.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/robot_reader.h"
 #include "simulator/model/yaml_chain.h"
@@ -16,14 +17,14 @@ constexpr const char* kFormat = "model/1";
 
 std::string skeleton_path(const YamlNode& node) {
   const std::string extension = fs::path(node.text()).extension().string();
-  if (extension != ".sdf" && extension != ".urdf") {
-    node.refuse("a file name that ends in .sdf or .urdf");
+  if (extension != ".sdf" && extension != ".urdf" && extension != ".xml") {
+    node.refuse("a file name that ends in .sdf, .urdf or .xml (MJCF)");
   }
   std::string path = beside(node.file(), node.text());
   std::error_code missing;
   if (!fs::is_regular_file(path, missing)) {
     node.refuse(quote(node.text()) + ", where there is no file",
-                "the path of a .sdf or .urdf, relative to this file");
+                "the path of a .sdf, .urdf or .xml, relative to this file");
   }
   return path;
 }
@@ -37,7 +38,7 @@ void read_section(const YamlNode& root, const char* key, void (*read)(const Yaml
 
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const SkeletonReader& skeletons) {
   root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "pulleys",
-                   "ratios", "inertias", "sensors", "feet", "effects"});
+                   "ratios", "inertias", "sensors", "feet", "effects", "joint_dynamics"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
@@ -55,6 +56,12 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const
   read_section(root, "sensors", read_sensors, model);
   if (const auto effects = root.find("effects")) {
     read_effects(*effects, catalogue, model);
+  }
+  if (const auto motors = root.find("motors")) {
+    add_back_emf(*motors, catalogue, model);
+  }
+  if (const auto dynamics = root.find("joint_dynamics")) {
+    take_joint_dynamics(*dynamics, catalogue, model);
   }
   return model;
 }

@@ -24,7 +24,9 @@ std::mutex& quiet_sdformat() {
 
 void load(SkeletonXml& xml, UrdfShapes shapes, const std::function<void(const LoadedSdf&)>& use) {
   sdf::Root root;
-  refuse_errors(xml.is_urdf() ? root.LoadSdfString(xml.urdf_for_sdformat(shapes)) : root.Load(xml.file()),
+  refuse_errors(xml.is_urdf()        ? root.LoadSdfString(xml.urdf_for_sdformat(shapes))
+                : xml.has_massless() ? root.LoadSdfString(xml.text())
+                                     : root.Load(xml.file()),
                 xml);
   const sdf::World* world = root.WorldCount() > 0 ? root.WorldByIndex(0) : nullptr;
   const sdf::Model* model = world != nullptr ? world->ModelByIndex(0) : root.Model();

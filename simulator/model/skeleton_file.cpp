@@ -1,6 +1,7 @@
 // SDFormat and URDF to a Skeleton, through libsdformat.
 #include <algorithm>
 
+#include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/sdformat_access.h"
 
@@ -198,6 +199,8 @@ LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
     xml.refuse({joint.Name(), xml.line_of_joint(joint.Name())}, "no axis", "an axis of a joint that moves");
   }
   loose.joint.axis = to_eigen(direction).normalized();
+  loose.joint.damping = std::max(0.0, axis->Damping());
+  loose.joint.friction = std::max(0.0, axis->Friction());
   return loose;
 }
 
@@ -226,6 +229,9 @@ Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
 }  // namespace
 
 Skeleton read_skeleton(const std::string& path) {
+  if (is_mjcf(path)) {
+    return read_mjcf(path);
+  }
   SkeletonXml xml(path);
   Skeleton skeleton;
   with_sdformat(xml, UrdfShapes::left_out,

@@ -149,6 +149,10 @@ void SkeletonXml::check_links(const XMLElement& model) {
     const XmlPart part = named(*link, links_);
     links_.push_back(part);
     if (const XMLElement* inertial = link->FirstChildElement("inertial")) {
+      if (is_massless(*inertial, part)) {
+        massless_ = true;  // a frame: as if it had no inertial
+        continue;
+      }
       links_with_inertial_.insert(part.name);
       check_inertial(*inertial, part);
     }
@@ -175,6 +179,27 @@ double SkeletonXml::number(const XMLElement& parent, const char* name, const Xml
     refuse(place, "\"" + std::string(text) + "\"", "a finite number");
   }
   return *value;
+}
+
+bool SkeletonXml::is_massless(const XMLElement& inertial, const XmlPart& link) const {
+  return number(inertial, "mass", link) == 0.0;
+}
+
+std::string SkeletonXml::text() const {
+  tinyxml2::XMLDocument copy;
+  document_.DeepCopy(&copy);
+  XMLElement* holder = copy.RootElement()->FirstChildElement("world");
+  holder = holder == nullptr ? copy.RootElement() : holder;
+  XMLElement* model = holder->FirstChildElement("model");
+  for (XMLElement* link = model->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    if (!has_inertial(attribute(*link, "name"))) {
+      remove_children(*link, "inertial");
+    }
+  }
+  tinyxml2::XMLPrinter printer;
+  copy.Print(&printer);
+  return printer.CStr();
 }
 
 void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link) const {
@@ -267,6 +292,9 @@ std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
       remove_children(*link, "visual");
     }
     remove_children(*link, "collision");
+    if (!has_inertial(attribute(*link, "name"))) {
+      remove_children(*link, "inertial");
+    }
     if (link->FirstChildElement("inertial") == nullptr && attribute(*link, "name") != "world") {
       tinyxml2::XMLDocument placeholder;
       placeholder.Parse(

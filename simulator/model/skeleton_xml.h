@@ -38,6 +38,11 @@ class SkeletonXml {
   /// The part that a message of libsdformat speaks of; an empty name when it names none.
   XmlPart part_in(const std::string& message) const;
 
+  /// Has an SDFormat file links with an inertial of no mass, which libsdformat refuses? Then it is read from
+  /// text() instead of the file.
+  bool has_massless() const { return massless_; }
+  std::string text() const;
+
   /// A URDF such that libsdformat keeps every link: fixed joints are kept, massless links get a placeholder
   /// inertial (which has_inertial() tells from a real one), extensions are left out, and shapes where the
   /// physics is read.
@@ -51,6 +56,7 @@ class SkeletonXml {
   void check_joints(const tinyxml2::XMLElement& model);
   void check_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;
   void check_urdf_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;
+  bool is_massless(const tinyxml2::XMLElement& inertial, const XmlPart& link) const;
   void check_inertial(const tinyxml2::XMLElement& inertial, const XmlPart& link) const;
   double number(const tinyxml2::XMLElement& parent, const char* name, const XmlPart& part) const;
   XmlPart named(const tinyxml2::XMLElement& element, const std::vector<XmlPart>& taken) const;
@@ -60,6 +66,7 @@ class SkeletonXml {
   tinyxml2::XMLDocument document_;
   bool urdf_ = false;
   bool states_gravity_ = false;
+  bool massless_ = false;
   std::vector<XmlPart> links_, joints_;
   std::set<std::string> links_with_inertial_;
 };

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "simulator/model/mjcf_file.h"
 #include "simulator/model/sdformat_access.h"
 #include "simulator/model/visual.h"
 
@@ -82,6 +83,9 @@ void read_link(const sdf::Link& link, const SkeletonXml& xml, Visuals& visuals) 
 }  // namespace
 
 Visuals read_visuals(const std::string& skeleton_file) {
+  if (is_mjcf(skeleton_file)) {
+    return {};  // its shapes are not drawn: stand-ins are
+  }
   SkeletonXml xml(skeleton_file);
   Visuals visuals;
   with_sdformat(xml, UrdfShapes::kept, [&](const LoadedSdf& loaded) {

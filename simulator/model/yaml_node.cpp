@@ -172,6 +172,14 @@ std::string YamlNode::text() const {
   return node_.Scalar();
 }
 
+bool YamlNode::flag() const {
+  const std::string given = node_.IsScalar() ? node_.Scalar() : "";
+  if (given != "true" && given != "false") {
+    refuse("true or false");
+  }
+  return given == "true";
+}
+
 double YamlNode::number() const {
   const std::optional<double> value = node_.IsScalar() ? parse_number(node_.Scalar()) : std::nullopt;
   if (!value) {

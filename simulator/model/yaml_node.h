@@ -39,6 +39,8 @@ class YamlNode {
   bool is_map() const { return node_.IsMap(); }
   /// A text that is not empty.
   std::string text() const;
+  /// true or false.
+  bool flag() const;
   /// A finite number.
   double number() const;
   /// A finite number, or .inf / -.inf.

@@ -39,6 +39,43 @@ TEST(ContactEvents, AShortKnockInFlightIsNone) {
   EXPECT_TRUE(contact_events(switched({100, 110}, 200)).empty());
 }
 
+TEST(ContactEvents, ALateSwitchHasItsLatenessTakenOff) {
+  Trial trial = switched({30, 80}, 200);
+  trial.switches[0].closes_late = 5e-3;
+  trial.switches[0].opens_late = 12e-3;
+  const std::vector<ContactEvent> events = contact_events(trial);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_NEAR(events[0].time, 0.0245, 1e-12);
+  EXPECT_EQ(events[0].sample, 25);
+  EXPECT_NEAR(events[1].time, 0.0675, 1e-12);
+  EXPECT_EQ(events[1].sample, 68);
+  trial.switches[0].lateness_uncertainty = 2e-3;
+  EXPECT_NEAR(timing_floor(trial, 0), std::sqrt(1e-6 / 12 + 4e-6), 1e-12);
+}
+
+TEST(ContactEvents, HowLongASwitchBouncesIsItsOwn) {
+  Trial trial = switched({30, 45, 60, 90}, 200);
+  trial.switches[0].bounce = 5e-3;
+  EXPECT_EQ(contact_events(trial).size(), 4U);
+}
+
+TEST(ContactEvents, ATwinsSwitchIsAsLateAsTheModelSays) {
+  model::ContactSwitch contact{"sole", 0, ""};
+  contact.closes_late = 5e-3;
+  contact.opens_late = 12e-3;
+  const Trial truth = switched({30, 80}, 200);
+  Trial recorded = truth;
+  recorded.switches = {record_of(contact, "c", read_late(contact, truth.switches[0].values, truth.period))};
+  EXPECT_EQ(recorded.switches[0].values[34], 0.0);
+  EXPECT_EQ(recorded.switches[0].values[35], 1.0);
+  EXPECT_EQ(recorded.switches[0].values[91], 1.0);
+  EXPECT_EQ(recorded.switches[0].values[92], 0.0);
+  const std::vector<ContactEvent> events = contact_events(recorded);
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_NEAR(events[0].time, contact_events(truth)[0].time, 1e-12);
+  EXPECT_NEAR(events[1].time, contact_events(truth)[1].time, 1e-12);
+}
+
 TEST(ContactEvents, TheirFloorIsThatOfTheSampling) {
   EXPECT_NEAR(timing_floor(switched({}, 30)), 1e-3 / std::sqrt(12.0), 1e-15);
 }

@@ -125,6 +125,24 @@ TEST_F(ReadTrial, NanInAMatlabColumnNamesTheRow) {
   }
 }
 
+TEST_F(ReadTrial, ARecordMayStateItsOwnResolutionNoiseAndZeroError) {
+  const std::string own =
+      "unit: deg, resolution: {value: 0.6, unit: deg}, noise: {value: 0.1, unit: deg}, "
+      "offset_uncertainty: {value: 2, unit: deg}}";
+  write_file(folder / "swing" / "trial.yaml", replaced(good_trial(), "unit: deg}", own));
+  const Trial trial = read_trial((folder / "swing").string(), robot);
+  const double degree = kPi / 180;
+  EXPECT_NEAR(trial.measured[0].offset_uncertainty, 2 * degree, 1e-15);
+  EXPECT_EQ(trial.measured[1].offset_uncertainty, 0.0);
+  // sqrt(0.6^2/12 + 0.1^2) = 0.2 degrees; the other sensor is as the model says.
+  EXPECT_NEAR(sensor_of(robot, trial.measured[0]).floor(), 0.2 * degree, 1e-15);
+  EXPECT_EQ(sensor_of(robot, trial.measured[1]).floor(), robot.sensors[1].floor());
+  const model::Model recorded = as_recorded(robot, trial);
+  EXPECT_NEAR(recorded.sensors[0].floor(), 0.2 * degree, 1e-15);
+  EXPECT_EQ(recorded.sensors[1].floor(), robot.sensors[1].floor());
+  EXPECT_EQ(robot.sensors[0].resolution, 0.003);
+}
+
 TEST_F(ReadTrial, JitterBelowOnePercentIsTaken) {
   std::string csv = replaced(good_csv(), "\n0.05,", "\n0.05009,");
   write_file(folder / "swing" / "data.csv", csv);

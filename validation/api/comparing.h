@@ -13,7 +13,8 @@ namespace plumbline::api {
 struct Compared {
   validation::Comparison comparison;
   std::vector<validation::HorizonError> horizons;
-  /// By trial: samples x measured channels, SI; NaN where no window predicts.
+  /// By trial, those of role test behind the others: samples x measured channels, SI; NaN where no window
+  /// predicts.
   std::vector<Eigen::MatrixXd> predicted;
 };
 

@@ -55,7 +55,7 @@ json to_json(const Trial& trial, const Model& model, const Freedom& freedom) {
                                {"column_unit", channel.unit},
                                {"unit", reading_unit(model, channel.sensor)},
                                {"rms", rms(channel.values)},
-                               {"floor", model.find_sensor(channel.sensor)->floor()}});
+                               {"floor", sensor_of(model, channel).floor()}});
   }
   out["contact_events"] = json::array();
   for (const validation::ContactEvent& event : trial.contact_events) {

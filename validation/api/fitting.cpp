@@ -32,7 +32,8 @@ nlohmann::json to_json(const FittedParameter& parameter) {
 
 nlohmann::json to_json(const validation::Scores& scores, const Loaded& loaded) {
   return {{"train", scores.train},
-          {"held_out", score_or_null<nlohmann::json>(loaded, Role::held_out, scores.held_out)}};
+          {"held_out", score_or_null<nlohmann::json>(loaded, Role::held_out, scores.held_out)},
+          {"test", scores.test > 0.0 ? nlohmann::json(scores.test) : nlohmann::json()}};
 }
 
 /// "fit on chirp, steps": the trials that were fitted.

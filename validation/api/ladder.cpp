@@ -62,6 +62,7 @@ nlohmann::json to_json(const Ladder& ladder) {
     nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
     model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
     model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
+    model["test"] = rung.scores.test > 0.0 ? nlohmann::json(rung.scores.test) : nlohmann::json();
     for (const validation::WholeTrial& trial : rung.trials) {
       model["trials"].push_back(validation::to_json(trial));
     }

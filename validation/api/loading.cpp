@@ -54,9 +54,11 @@ Loaded load(const Sources& sources, const validation::StopFlag* stop) {
 std::vector<std::string> files_of(const Loaded& loaded) {
   std::vector<std::string> files = loaded.model.lineage;
   files.push_back(loaded.model.skeleton.file);
-  for (const validation::Trial& trial : loaded.data->trials) {
-    files.push_back(trial.file);
-    files.push_back(trial.data_file);
+  for (const auto* trials : {&loaded.data->trials, &loaded.data->tests}) {
+    for (const validation::Trial& trial : *trials) {
+      files.push_back(trial.file);
+      files.push_back(trial.data_file);
+    }
   }
   return files;
 }

@@ -7,33 +7,35 @@
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
 #include "validation/trial/physical_number.h"
+#include "validation/trial/sampling.h"
 #include "validation/trial/trial_data.h"
 
 namespace plumbline::api {
 namespace {
 
 using model::Model;
+using validation::Grid;
 using validation::Signal;
 using validation::Trial;
 
 /// One channel as a data file with a single column would be read.
-Signal signal_of(const TrialArrays& arrays, const Channel& channel, const std::string& expected_unit,
-                 const std::string& owner) {
+Signal read_channel(const TrialArrays& arrays, const Channel& channel, const std::string& expected_unit,
+                    const std::string& owner) {
   const Place_in_file where{arrays.name, 0, channel.name};
   if (channel.values.size() != arrays.time.size()) {
     throw InputError(where, std::to_string(channel.values.size()) + " values",
                      std::to_string(arrays.time.size()) + ", as many as there are times");
   }
-  Table table;
-  table.file = arrays.name;
-  table.columns.push_back({channel.name, "", channel.values});
+  LogFile log;
+  log.table.file = arrays.name;
+  log.table.columns.push_back({channel.name, "", channel.values});
   validation::ColumnUse use;
   use.name = channel.name;
   use.unit = channel.unit;
   use.expected_unit = expected_unit;
   use.owner = owner;
   use.place = where;
-  return validation::read_signal(table, use);
+  return validation::read_signal(log, use, false);
 }
 
 void refuse_twice(const TrialArrays& arrays, const std::vector<Channel>& channels) {
@@ -56,8 +58,9 @@ std::vector<std::string> known_sensors(const Model& model) {
   return names;
 }
 
-void add_switch(const TrialArrays& arrays, const Channel& channel, Trial& trial) {
-  Signal signal = signal_of(arrays, channel, "1", "contact switch " + channel.name);
+void add_switch(const TrialArrays& arrays, const Model& model, const Grid& grid, const Channel& channel,
+                Trial& trial) {
+  Signal signal = read_channel(arrays, channel, "1", "contact switch " + channel.name);
   for (Eigen::Index k = 0; k < signal.values.size(); ++k) {
     if (signal.values[k] != 0.0 && signal.values[k] != 1.0) {
       throw InputError({arrays.name, 0, channel.name},
@@ -65,14 +68,15 @@ void add_switch(const TrialArrays& arrays, const Channel& channel, Trial& trial)
                        "0 (open) or 1 (closed): it is a contact switch");
     }
   }
-  trial.switches.push_back({channel.name, channel.name, std::move(signal.values)});
+  trial.switches.push_back(
+      record_of(*model.find_switch(channel.name), channel.name, grid.held(signal.values)));
 }
 
-void add_measured(const TrialArrays& arrays, const Model& model, Trial& trial) {
+void add_measured(const TrialArrays& arrays, const Model& model, const Grid& grid, Trial& trial) {
   refuse_twice(arrays, arrays.measured);
   for (const Channel& channel : arrays.measured) {
     if (model.find_switch(channel.name) != nullptr) {
-      add_switch(arrays, channel, trial);
+      add_switch(arrays, model, grid, channel, trial);
       continue;
     }
     if (model.find_sensor(channel.name) == nullptr) {
@@ -80,8 +84,8 @@ void add_measured(const TrialArrays& arrays, const Model& model, Trial& trial) {
                        "a sensor of the model" + nearest_names(channel.name, known_sensors(model)));
     }
     Signal signal =
-        signal_of(arrays, channel, model::reading_unit(model, channel.name), "sensor " + channel.name);
-    trial.measured.push_back({channel.name, channel.name, signal.unit, std::move(signal.values)});
+        read_channel(arrays, channel, model::reading_unit(model, channel.name), "sensor " + channel.name);
+    trial.measured.push_back({channel.name, channel.name, signal.unit, grid.interpolated(signal.values)});
   }
   if (trial.measured.empty()) {
     throw InputError({arrays.name, 0, "measured"}, "no sensor", "at least one sensor of the model");
@@ -96,7 +100,7 @@ std::vector<std::string> known_motors(const Model& model) {
   return names;
 }
 
-void add_commands(const TrialArrays& arrays, const Model& model, Trial& trial) {
+void add_commands(const TrialArrays& arrays, const Model& model, const Grid& grid, Trial& trial) {
   refuse_twice(arrays, arrays.commands);
   for (const Channel& channel : arrays.commands) {
     const model::Motor* motor = model.find_motor(channel.name);
@@ -104,8 +108,8 @@ void add_commands(const TrialArrays& arrays, const Model& model, Trial& trial) {
       throw InputError({arrays.name, 0, "commands"}, "\"" + channel.name + "\"",
                        "a motor of the model" + nearest_names(channel.name, known_motors(model)));
     }
-    Signal signal = signal_of(arrays, channel, motor->command_unit, "motor " + channel.name);
-    trial.commands.push_back({channel.name, channel.name, signal.unit, std::move(signal.values)});
+    Signal signal = read_channel(arrays, channel, motor->command_unit, "motor " + channel.name);
+    trial.commands.push_back({channel.name, channel.name, signal.unit, grid.held_mean(signal.values)});
   }
 }
 
@@ -136,6 +140,17 @@ void add_events(const TrialArrays& arrays, Trial& trial) {
   std::sort(trial.events.begin(), trial.events.end());
 }
 
+Eigen::VectorXd rising_times(const TrialArrays& arrays) {
+  const Eigen::VectorXd time = read_channel(arrays, {"time", "s", arrays.time}, "s", "time").values;
+  for (Eigen::Index k = 1; k < time.size(); ++k) {
+    if (!(time[k] > time[k - 1])) {
+      throw InputError({arrays.name, 0, "time"}, number_text(time[k]) + " s at index " + std::to_string(k),
+                       "a time above " + number_text(time[k - 1]) + " s, that of the index before");
+    }
+  }
+  return time;
+}
+
 }  // namespace
 
 Trial trial_from(const TrialArrays& arrays, const Model& model) {
@@ -144,12 +159,17 @@ Trial trial_from(const TrialArrays& arrays, const Model& model) {
   trial.title = arrays.title.empty() ? arrays.name : arrays.title;
   trial.model_file = model.file;
   trial.role = arrays.role;
-  trial.time = signal_of(arrays, {"time", "s", arrays.time}, "s", "time").values;
-  Table table;
-  table.file = arrays.name;
-  trial.period = validation::checked_period(trial.time, table, "time");
-  add_measured(arrays, model, trial);
-  add_commands(arrays, model, trial);
+  const Grid grid(rising_times(arrays), {}, {arrays.name, 0, "time"});
+  trial.time = grid.time();
+  trial.period = grid.period();
+  if (!grid.remark().empty()) {
+    trial.remarks.push_back(grid.remark());
+  }
+  if (!grid.gaps().empty()) {
+    trial.stretches = grid.stretches(grid.gaps());
+  }
+  add_measured(arrays, model, grid, trial);
+  add_commands(arrays, model, grid, trial);
   add_locks(arrays, model, trial);
   add_events(arrays, trial);
   trial.contact_events = validation::contact_events(trial);

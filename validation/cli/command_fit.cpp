@@ -96,6 +96,9 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   } else {
     fmt::print("; no held-out trial\n");
   }
+  if (fit.after.test > 0.0) {
+    fmt::print("On the trials of role test: {:.3f} before, {:.3f} after\n", fit.before.test, fit.after.test);
+  }
   if (fit.after.train > options.fit.explained) {
     fmt::print(
         "More is missing than values (above {:g} floors): the intervals do not know of that. What it may be "

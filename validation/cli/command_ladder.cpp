@@ -168,6 +168,14 @@ void print(const std::vector<api::LadderRung>& rungs, const std::vector<Referenc
   for (const std::vector<std::string>& row : published_rows(published, columns)) {
     rows.push_back(row);
   }
+  if (rungs.front().scores.test > 0.0) {
+    constexpr std::ptrdiff_t kBehindHeldOut = 3;
+    head.insert(head.begin() + kBehindHeldOut, "test");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::string text = i < rungs.size() ? score_text(true, rungs[i].scores.test) : "";
+      rows[i].insert(rows[i].begin() + kBehindHeldOut, text);
+    }
+  }
   fmt::print("train, held-out: error in windows from their own start, in units of the floor.\n");
   if (!columns.empty()) {
     fmt::print(

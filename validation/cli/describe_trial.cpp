@@ -28,14 +28,15 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
     const std::string unit = reading_unit(model, channel.sensor);
     rows.push_back({"sensor " + channel.sensor, channel.column, channel.unit,
                     fmt::format("{:.4g} {}", rms(channel.values), unit),
-                    fmt::format("{:.3g} {}", model.find_sensor(channel.sensor)->floor(), unit)});
+                    fmt::format("{:.3g} {}", sensor_of(model, channel).floor(), unit)});
   }
   for (std::size_t r = 0; r < trial.switches.size(); ++r) {
     const auto events = std::count_if(
         trial.contact_events.begin(), trial.contact_events.end(),
         [&](const validation::ContactEvent& event) { return event.record == static_cast<int>(r); });
     rows.push_back({"contact switch " + trial.switches[r].name, trial.switches[r].column, "1",
-                    fmt::format("{} events", events), fmt::format("{:.3g} s", timing_floor(trial))});
+                    fmt::format("{} events", events),
+                    fmt::format("{:.3g} s", timing_floor(trial, static_cast<int>(r)))});
   }
   for (const validation::Command& command : trial.commands) {
     rows.push_back(

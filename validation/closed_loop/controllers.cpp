@@ -27,7 +27,8 @@ TrialControllers::TrialControllers(model::Plant& plant, const Trial& trial, cons
   plant.outputs(x0.data(), y.data());
   Eigen::MatrixXd slope;
   plant.output_jacobian(x0.data(), slope);
-  const Eigen::VectorXd rate = slope * x0.segment(plant.positions(), plant.positions());
+  const Eigen::VectorXd rate =
+      slope.leftCols(plant.positions()) * x0.segment(plant.positions(), plant.positions());
   for (const Controller& known : trial.controllers) {
     Loop loop{model.sensor_index(known.sensor), model.motor_index(known.motor), law_of(known, trial.period),
               &known};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/model/kinds.h"
 
@@ -25,7 +26,7 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
       }
     }
     for (std::size_t c = 0; c < trial.measured.size(); ++c) {
-      const model::Sensor& sensor = *model.find_sensor(trial.measured[c].sensor);
+      const model::Sensor sensor = sensor_of(model, trial.measured[c]);
       ChannelError error;
       error.trial = trial.name;
       error.name = sensor.name;
@@ -41,13 +42,20 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
         return trial.contact_events[static_cast<std::size_t>(e)].record == static_cast<int>(r);
       });
       const double square = sum[static_cast<Eigen::Index>(trial.measured.size() + r)];
-      ChannelError error{trial.name, trial.switches[r].name, "s", trial.role, 0.0, timing_floor(trial), 0.0};
+      ChannelError error{
+          trial.name, trial.switches[r].name, "s", trial.role, 0.0, timing_floor(trial, static_cast<int>(r)),
+          0.0};
       error.ratio = std::sqrt(square / std::max(static_cast<double>(count), 1.0));
       error.rms = error.ratio * error.floor;
       errors.push_back(error);
     }
   }
   return errors;
+}
+
+void sort_worst_first(std::vector<WindowError>& errors) {
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const WindowError& a, const WindowError& b) { return a.ratio > b.ratio; });
 }
 
 std::vector<WindowError> window_errors(const Data& data, const Estimate& estimate) {
@@ -62,22 +70,48 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
     errors.push_back({trial.name, trial.time[window.first], trial.time[window.first + window.count - 1],
                       std::sqrt(square.mean()), trial.measured[static_cast<std::size_t>(worst)].sensor});
   }
-  std::stable_sort(errors.begin(), errors.end(),
-                   [](const WindowError& a, const WindowError& b) { return a.ratio > b.ratio; });
+  sort_worst_first(errors);
   return errors;
 }
 
 }  // namespace
 
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}};
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}};
 }
 
-Comparison compare(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
+namespace {
+
+Comparison compare_trials(const model::Model& model, const Data& data) {
+  std::vector<LostWindow> lost;
+  const Data kept = without_lost(model, data, lost);
+  PredictorPool pool(model, kept);
   const Estimate estimate = estimate_states(pool);
-  Comparison comparison = compare(model, data, estimate);
+  Comparison comparison = compare(model, kept, estimate);
   comparison.phases = phase_errors(pool, {}, estimate);
+  comparison.lost = std::move(lost);
+  return comparison;
+}
+
+template <typename T>
+void append(const std::vector<T>& more, std::vector<T>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Comparison compare(const model::Model& model, const Data& data) {
+  if (data.tests.empty()) {
+    return compare_trials(model, data);
+  }
+  Comparison comparison = data.trials.empty() ? Comparison() : compare_trials(model, data);
+  const Comparison tests = compare_trials(model, data.of_tests());
+  append(tests.channels, comparison.channels);
+  append(tests.windows, comparison.windows);
+  append(tests.phases, comparison.phases);
+  append(tests.lost, comparison.lost);
+  sort_worst_first(comparison.windows);
+  comparison.scores.test = tests.scores.test;
   return comparison;
 }
 

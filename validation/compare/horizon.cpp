@@ -41,13 +41,20 @@ bool is_struck(const Trial& trial, Eigen::Index from, Eigen::Index to) {
                      [&](double event) { return event > trial.time[from] && event <= trial.time[to]; });
 }
 
+/// Does the recording hang together from one sample to the other?
+bool is_in_one_stretch(const Trial& trial, Eigen::Index from, Eigen::Index to) {
+  const std::vector<Stretch> stretches = stretches_of(trial);
+  return std::any_of(stretches.begin(), stretches.end(),
+                     [&](const Stretch& one) { return one.first <= from && to < one.end; });
+}
+
 /// How many samples behind the window may be predicted: those of the longest horizon that counts.
 Eigen::Index reach_of(const Trial& trial, const Window& window, const std::vector<double>& horizons) {
   const Eigen::Index last = window.first + window.count - 1;
   Eigen::Index reach = 0;
   for (const double horizon : horizons) {
     const Eigen::Index steps = steps_of(trial, horizon);
-    if (last + steps < trial.samples() && !is_struck(trial, last, last + steps)) {
+    if (is_in_one_stretch(trial, last, last + steps) && !is_struck(trial, last, last + steps)) {
       reach = std::max(reach, steps);
     }
   }

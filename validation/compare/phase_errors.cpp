@@ -62,7 +62,7 @@ std::vector<PhaseError> phase_errors(PredictorPool& pool, const std::vector<Free
   for (std::size_t t = 0; t < trials.size(); ++t) {
     for (std::size_t c = 0; c < trials[t].measured.size(); ++c) {
       const Measured& channel = trials[t].measured[c];
-      add_phases(trials[t], *pool.model().find_sensor(channel.sensor),
+      add_phases(trials[t], sensor_of(pool.model(), channel),
                  model::reading_unit(pool.model(), channel.sensor), channel,
                  channel.values - predicted[t].col(static_cast<Eigen::Index>(c)), errors);
     }

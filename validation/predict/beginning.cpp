@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "validation/predict/jump_surface.h"
+#include "validation/predict/stance.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -13,7 +14,7 @@ std::vector<model::Observation> start_observations(const model::Plant& plant, co
   std::vector<model::Observation> channels;
   for (const Measured& channel : trial.measured) {
     const int sensor = plant.model().sensor_index(channel.sensor);
-    if (!plant.model().sensors[static_cast<std::size_t>(sensor)].is_force_plate()) {
+    if (plant.model().sensors[static_cast<std::size_t>(sensor)].shows_position()) {
       channels.push_back(model::observe_sensor(plant, sensor));
     }
   }
@@ -52,6 +53,8 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   x.segment(nz, nz) = from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true));
   if (!trial_.start.empty()) {
     fall_freely(window, x);
+  } else if (trial_.switches.empty() && plant_.meets_ground()) {
+    stand_on_ground(plant_, from_channels_.deviations(), x);
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
@@ -113,7 +116,7 @@ void Predictor::touch_down_in_time(const Window& window, int foot, double touchd
   const Eigen::Index nz = plant_.positions();
   for (int i = 0; i < kCorrections; ++i) {
     run(until, x);
-    const Crossing crossing = nearest_crossing(foot, true, time, kBehind);
+    const Crossing crossing = nearest_crossing(foot, 0.0, true, time, kBehind);
     if (crossing.node < 0) {
       return;
     }

@@ -27,6 +27,10 @@ double zero_of(const model::FootDepth& a, const model::FootDepth& b, double h) {
   return 0.5 * (low + high);
 }
 
+/// Where a straight line from a to b, which have different signs, is zero. The integrator's steps in the
+/// ground are short.
+double share_of(double a, double b) { return a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0); }
+
 /// A predicted instant that is farther off counts as none, and costs at most as much as one that is as far
 /// off: a foot that just leaves the ground in one motion and just not in the other must not outweigh all
 /// else; s.
@@ -45,10 +49,16 @@ double unseen(double time, double end, double farthest) {
 
 }  // namespace
 
-// Samples `from` to `to` around `first` without those on the other side of an impact, which are another
-// motion. Where too few would be left the impact is taken in.
+// Samples `from` to `to` around `first` without those on the other side of a gap, or of an impact, which are
+// another motion. Where too few would be left the impact is taken in.
 void Predictor::stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const {
   constexpr Eigen::Index kFewest = 5;
+  for (const Stretch& stretch : trial_.stretches) {
+    if (stretch.first <= first && first < stretch.end) {
+      from = std::max(from, stretch.first);
+      to = std::min(to, stretch.end - 1);
+    }
+  }
   Eigen::Index begin = from;
   Eigen::Index end = to;
   for (const ContactEvent& event : trial_.contact_events) {
@@ -61,21 +71,32 @@ void Predictor::stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Ind
   }
 }
 
-Predictor::Crossing Predictor::nearest_crossing(int foot, bool touchdown, double time, double farthest) {
+Predictor::Crossing Predictor::nearest_crossing(int foot, double threshold, bool touchdown, double time,
+                                                double farthest) {
   Crossing nearest;
   nearest.time = time + farthest;
+  // How far the foot's vertical force is above the threshold.
+  const auto excess = [&](Eigen::Index node) {
+    return plant_.touches(states_.col(node).data())[static_cast<std::size_t>(foot)].force.z() - threshold;
+  };
+  const auto is_closed = [&](const model::FootDepth& at, Eigen::Index node) {
+    return at.depth > 0.0 && (threshold == 0.0 || excess(node) > 0.0);
+  };
   model::FootDepth before = plant_.foot_depth(foot, states_.col(0).data());
+  bool closed = is_closed(before, 0);
   for (Eigen::Index n = 0; n + 1 < nodes_; ++n) {
     const model::FootDepth behind = plant_.foot_depth(foot, states_.col(n + 1).data());
-    if ((before.depth > 0.0) != (behind.depth > 0.0) && (behind.depth > 0.0) == touchdown) {
+    const bool closes = is_closed(behind, n + 1);
+    if (closed != closes && closes == touchdown) {
       const double h = length_of(n);
-      const double share = zero_of(before, behind, h);
+      const double share = threshold == 0.0 ? zero_of(before, behind, h) : share_of(excess(n), excess(n + 1));
       const double at = node_times_[static_cast<std::size_t>(n)] + share * h;
       if (std::abs(at - time) < std::abs(nearest.time - time)) {
         nearest = {n, share, at, (1.0 - share) * before.rate + share * behind.rate};
       }
     }
     before = behind;
+    closed = closes;
   }
   if (nearest.node < 0) {
     nearest.time = unseen(time, node_times_[static_cast<std::size_t>(nodes_ - 1)], farthest);
@@ -92,8 +113,9 @@ std::vector<Predictor::Crossing> Predictor::crossings_of(const Window& window) {
       all.push_back({});
       all.back().time = event.time - trial_.time[window.first] + kFarthest;
     } else {
-      all.push_back(
-          nearest_crossing(foot, event.touchdown, event.time - trial_.time[window.first], kFarthest));
+      const SwitchRecord& record = trial_.switches[static_cast<std::size_t>(event.record)];
+      all.push_back(nearest_crossing(foot, plant_.model().find_switch(record.name)->threshold,
+                                     event.touchdown, event.time - trial_.time[window.first], kFarthest));
     }
   }
   return all;
@@ -104,11 +126,12 @@ void Predictor::timing_residuals(const Window& window, Eigen::VectorXd& r) {
   for (std::size_t e = 0; e < crossings.size(); ++e) {
     const ContactEvent& event = trial_.contact_events[static_cast<std::size_t>(window.events[e])];
     r[window.count * channels() + static_cast<Eigen::Index>(e)] =
-        (event.time - trial_.time[window.first] - crossings[e].time) / timing_floor(trial_);
+        (event.time - trial_.time[window.first] - crossings[e].time) / timing_floor(trial_, event.record);
   }
 }
 
-// The depth is zero at the instant t: dt = -(d(depth)/dx dx + d(depth)/dp dp) / (rate of the depth).
+// The depth is what it is at the instant t (zero, or where the force is at the switch's threshold, which
+// moves little): dt = -(d(depth)/dx dx + d(depth)/dp dp) / (rate of the depth).
 void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>& crossings, Eigen::Index node,
                               const Eigen::MatrixXd& before, const Eigen::MatrixXd& behind,
                               const std::vector<model::ParameterId>& ids, Linearisation& out) {
@@ -124,7 +147,7 @@ void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>&
     const Eigen::MatrixXd S =
         (1.0 - crossing.share) * before.topRows(nz) + crossing.share * behind.topRows(nz);
     const Eigen::RowVectorXd slope = plant_.depth_slope(foot, states_.col(node).data()) * S;
-    const double scale = -1.0 / (crossing.rate * timing_floor(trial_));
+    const double scale = -1.0 / (crossing.rate * timing_floor(trial_, event.record));
     const Eigen::Index row = window.count * channels() + static_cast<Eigen::Index>(e);
     out.Jx.row(row) = scale * slope.head(nx);
     out.Jp.row(row) =

@@ -42,7 +42,7 @@ void cut_at_contact(const Trial& trial, std::vector<Eigen::Index>& cuts) {
   }
 }
 
-/// Samples at which windows may not continue: trial start, events, contact, end.
+/// Samples at which windows may not continue: trial start, events, contact, gaps, end.
 std::vector<Eigen::Index> cut_points(const Trial& trial) {
   std::vector<Eigen::Index> cuts{0};
   for (const double event : trial.events) {
@@ -53,11 +53,22 @@ std::vector<Eigen::Index> cut_points(const Trial& trial) {
   }
   if (!trial.switches.empty()) {
     cut_at_contact(trial, cuts);
-    std::sort(cuts.begin(), cuts.end());
-    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  }
+  for (const Stretch& stretch : trial.stretches) {
+    cuts.push_back(stretch.first);
+    cuts.push_back(stretch.end);
   }
   cuts.push_back(trial.samples());
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   return cuts;
+}
+
+/// Is the sample in a stretch of the recording that may be used?
+bool is_used(const Trial& trial, Eigen::Index sample) {
+  const std::vector<Stretch> stretches = stretches_of(trial);
+  return std::any_of(stretches.begin(), stretches.end(),
+                     [&](const Stretch& stretch) { return stretch.first <= sample && sample < stretch.end; });
 }
 
 void find_events(const Trial& trial, Window& window) {
@@ -162,7 +173,7 @@ std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictO
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
       const Eigen::Index span = cuts[c + 1] - cuts[c];
       const Eigen::Index parts = std::max<Eigen::Index>(1, (span + length / 2) / length);
-      if (span < kShortest) {
+      if (span < kShortest || !is_used(trial, cuts[c])) {
         continue;
       }
       for (Eigen::Index p = 0; p < parts; ++p) {

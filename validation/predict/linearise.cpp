@@ -72,7 +72,6 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd B;
   Eigen::MatrixXd C;
   Eigen::MatrixXd D;
-  const Eigen::Index nz = plant_.positions();
   const std::vector<Crossing> crossings = crossings_of(window);
   PlateSlopes plates(plant_, ids, steps);
   Eigen::MatrixXd forces;
@@ -83,7 +82,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     const Eigen::Index node = node_of(k);
     plant_.output_jacobian(states_.col(node).data(), C);
     plant_.output_tangent(states_.col(node).data(), ids, steps, D);
-    Eigen::MatrixXd slopes = C * S.topRows(nz);
+    Eigen::MatrixXd slopes = C * S.topRows(C.cols());
     slopes.rightCols(np) += D;
     if (plates.any()) {
       slopes += forces;  // a sensor's row is zero in one of the two

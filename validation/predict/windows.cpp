@@ -18,6 +18,9 @@ namespace {
 /// tens at the tolerance of 1e-5; of a method of third order they grow as the tolerance's third root falls.
 long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::cbrt(1e-5 / tolerance)); }
 
+/// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
+constexpr double kStiff = 16.0;
+
 }  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
@@ -30,15 +33,15 @@ void FreeParameter::set(model::Plant& plant, double value) const {
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
     : trial_(trial),
       options_(options),
-      plant_(model, trial.locks),
+      plant_(as_recorded(model, trial), trial.locks),
       from_channels_(plant_, start_observations(plant_, trial)) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     const int s = model.sensor_index(trial.measured[c].sensor);
     sensor_of_channel_.push_back(s);
-    const model::Sensor& sensor = model.sensors[static_cast<std::size_t>(s)];
+    const model::Sensor& sensor = plant_.model().sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
-    if (!sensor.is_force_plate()) {
+    if (sensor.shows_position()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
   }
@@ -92,7 +95,11 @@ void Predictor::carry_hidden(const Window& window, double* x) {
     x[i] = 0.0;
   }
   const auto reach = static_cast<Eigen::Index>(std::lround(options_.history / trial_.period));
-  for (Eigen::Index k = std::max<Eigen::Index>(0, window.first - reach); k < window.first; ++k) {
+  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
+  for (const Stretch& stretch : trial_.stretches) {
+    from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
+  }
+  for (Eigen::Index k = from; k < window.first; ++k) {
     plant_.carry_force_states(motion_.col(k).data(), motion_.col(k + 1).data(), trial_.period, x);
   }
 }
@@ -122,12 +129,28 @@ Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector
 // Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps
 // are short where it does. Elsewhere a piece is a sample.
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
+  if (options_.method == integrate::Method::explicit_rk) {
+    try {
+      run(window, x0, integrate::Method::explicit_rk, std::min(options_.most_steps, kStiff));
+      return;
+    } catch (const std::runtime_error&) {
+      // Stiff: dry friction that holds, a hard contact. Decided anew for every window, so that what a window
+      // gives does not depend on those before it.
+      run(window, x0, integrate::Method::rosenbrock, options_.most_steps);
+      return;
+    }
+  }
+  run(window, x0, options_.method, options_.most_steps);
+}
+
+void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
+                    double most_steps) {
   begin_nodes(window);
   JumpOde ode(plant_, jumps_);
   integrate::Options options;
   options.set_tolerance(options_.relative_tolerance);
-  options.method = options_.method;
-  options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
+  options.method = method;
+  options.order = method == integrate::Method::explicit_rk ? 3 : 0;
   options.max_steps = most_steps_of_sample(options_.relative_tolerance);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
@@ -160,7 +183,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
     }
     add_sample(k + 1, integrator.state());
     if (static_cast<double>(integrator.summary().steps) >
-        options_.most_steps * (static_cast<double>(k) + burst)) {
+        most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
   }

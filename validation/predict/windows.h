@@ -37,18 +37,19 @@ struct PredictOptions {
   /// samples); a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
-  /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
+  /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place, and so does a window in
+  /// which the explicit method needs many steps (dry friction that holds).
   integrate::Method method = integrate::Method::explicit_rk;
   /// Derivatives by differences of whole predictions: slower, and right wherever the linearisation of a piece
   /// is not.
   bool differences = false;
 };
 
-/// Cuts every trial into equal windows of about options.window, never across an event; a rest shorter than
-/// half a window joins its neighbour. With contact switches it is cut in each flight, kTail after lift-off
-/// and kLead before touchdown, and its windows come in the order stance, flight. Of a trial with a start only
-/// windows that begin in a flight are kept. Throws InputError when a trial has fewer samples than one window,
-/// or a start and no flight.
+/// Cuts every trial into equal windows of about options.window, never across an event or a gap; a rest
+/// shorter than half a window joins its neighbour. With contact switches it is cut in each flight, kTail
+/// after lift-off and kLead before touchdown, and its windows come in the order stance, flight. Of a trial
+/// with a start only windows that begin in a flight are kept. Throws InputError when a trial has fewer
+/// samples than one window, or a start and no flight.
 std::vector<Window> cut_windows(const std::vector<Trial>& trials, const PredictOptions& options);
 
 /// The window in segments (multiple shooting; Bock, "Numerical treatment of inverse problems in chemical
@@ -160,6 +161,7 @@ class Predictor {
   };
 
   void run(const Window& window, const Eigen::VectorXd& x0);
+  void run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method, double most_steps);
   void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
   void advance_in_pieces(integrate::Integrator& integrator, double end, double t0);
   void add_jumps(const std::vector<integrate::Event>& events, double t0);
@@ -177,7 +179,7 @@ class Predictor {
   double length_of(Eigen::Index node) const;
   void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
   std::vector<Crossing> crossings_of(const Window& window);
-  Crossing nearest_crossing(int foot, bool touchdown, double time, double farthest);
+  Crossing nearest_crossing(int foot, double threshold, bool touchdown, double time, double farthest);
   void timing_residuals(const Window& window, Eigen::VectorXd& r);
   void timing_slopes(const Window& window, const std::vector<Crossing>& crossings, Eigen::Index node,
                      const Eigen::MatrixXd& before, const Eigen::MatrixXd& behind,
@@ -204,7 +206,7 @@ class Predictor {
   PredictOptions options_;
   model::Plant plant_;
   std::vector<int> sensor_of_channel_;
-  std::vector<Eigen::Index> position_channels_;  // those that are no force plates
+  std::vector<Eigen::Index> position_channels_;  // those that show positions
   Eigen::VectorXd floors_;
   model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;

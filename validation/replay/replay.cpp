@@ -115,7 +115,7 @@ std::vector<ReplayError> errors_of(const model::Model& model, const Trial& trial
     const Eigen::VectorXd difference = channel.values - run.outputs.row(s).transpose();
     errors.push_back({channel.sensor, model::reading_unit(model, channel.sensor),
                       std::sqrt(difference.squaredNorm() / static_cast<double>(difference.size())),
-                      model.sensors[static_cast<std::size_t>(s)].floor()});
+                      sensor_of(model, channel).floor()});
   }
   return errors;
 }

@@ -36,21 +36,34 @@ Eigen::VectorXd without_short(const Eigen::VectorXd& values, double value, Eigen
 
 double timing_floor(const Trial& trial) { return trial.period / std::sqrt(12.0); }
 
-std::vector<ContactEvent> contact_events(const Trial& trial, double shortest) {
-  const auto fewest = static_cast<Eigen::Index>(std::lround(shortest / trial.period));
+double timing_floor(const Trial& trial, int record) {
+  return std::hypot(timing_floor(trial),
+                    trial.switches[static_cast<std::size_t>(record)].lateness_uncertainty);
+}
+
+std::vector<ContactEvent> contact_events(const Trial& trial) {
   std::vector<ContactEvent> events;
   for (std::size_t r = 0; r < trial.switches.size(); ++r) {
+    const SwitchRecord& record = trial.switches[r];
+    const auto fewest = static_cast<Eigen::Index>(std::lround(record.bounce / trial.period));
     // Openings first: a foot that lands and bounces has landed when it first touched.
-    const Eigen::VectorXd landed = without_short(trial.switches[r].values, 0.0, fewest);
+    const Eigen::VectorXd landed = without_short(record.values, 0.0, fewest);
     const Eigen::VectorXd values = without_short(landed, 1.0, fewest);
     for (const Eigen::Index k : changes_of(values)) {
-      events.push_back(
-          {trial.time[k] - 0.5 * trial.period, k, static_cast<int>(r), values[k] > values[k - 1]});
+      const bool touchdown = values[k] > values[k - 1];
+      const double late = touchdown ? record.closes_late : record.opens_late;
+      const auto samples = static_cast<Eigen::Index>(std::lround(late / trial.period));
+      events.push_back({trial.time[k] - 0.5 * trial.period - late, std::max<Eigen::Index>(1, k - samples),
+                        static_cast<int>(r), touchdown});
     }
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.sample < b.sample; });
   return events;
+}
+
+std::vector<Stretch> stretches_of(const Trial& trial) {
+  return trial.stretches.empty() ? std::vector<Stretch>{{0, trial.samples()}} : trial.stretches;
 }
 
 std::vector<Flight> flights_of(const Trial& trial) {

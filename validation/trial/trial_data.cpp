@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "simulator/trace/number_text.h"
@@ -15,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Eigen::Index kFewestSamples = 20;
-constexpr double kUniform = 0.01;
 constexpr int kDigits = 9;  // enough to see the difference of two sample times
 
 std::string seconds(double value) { return number_text(value, kDigits) + " s"; }
@@ -25,6 +24,9 @@ std::string row_name(Eigen::Index index) { return "row " + std::to_string(index 
 
 const Column& find_column(const Table& table, const ColumnUse& use) {
   const Column* column = table.find(use.name);
+  if (column == nullptr && !use.name.empty() && use.name.front() == '/') {
+    column = table.find(use.name.substr(1));  // a dataset of HDF5
+  }
   if (column == nullptr) {
     std::vector<std::string> names;
     for (const Column& known : table.columns) {
@@ -54,16 +56,36 @@ std::string declared_unit(const Column& column, const Table& table, const Column
   return use.unit;
 }
 
-double median_step(const Eigen::VectorXd& time) {
-  const Eigen::Index n = time.size() - 1;
-  std::vector<double> steps(static_cast<std::size_t>(n));
-  for (Eigen::Index k = 0; k < n; ++k) {
-    steps[static_cast<std::size_t>(k)] = time[k + 1] - time[k];
+/// Takes back the jumps of a column that begins anew after `turn`; a missing cell is stepped over.
+void unwrap(double turn, Eigen::VectorXd& values) {
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (double& value : values) {
+    if (std::isfinite(value)) {
+      if (std::isfinite(last)) {
+        value -= turn * std::round((value - last) / turn);
+      }
+      last = value;
+    }
   }
-  const auto middle = steps.begin() + n / 2;
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
 }
+
+void refuse_bad_cell(const LogFile& log, const std::string& column, bool may_miss) {
+  const auto bad = log.bad.find(column);
+  if (bad == log.bad.end() || (bad->second.missing && may_miss)) {
+    return;
+  }
+  const BadCell& cell = bad->second;
+  const std::string what = cell.text.empty() ? "an empty field" : model::quote(cell.text);
+  const bool has_line = cell.line > 0;
+  throw InputError({log.table.file, cell.line, column},
+                   has_line ? what : what + " in row " + std::to_string(cell.row),
+                   std::string("finite numbers") +
+                       (cell.missing ? "; `missing: fill` in trial.yaml bridges missing ones" : ""));
+}
+
+/// Absolute times, seconds since 1970 or since a machine was started, are counted from the first row.
+constexpr double kAbsolute = 1e7;
+constexpr double kMostLeftOut = 0.01;  // share of rows whose time does not rise
 
 }  // namespace
 
@@ -83,45 +105,78 @@ std::string data_path(const TrialFile& file, const std::string& data_folder) {
   return (fs::path(folder) / file.data).string();
 }
 
-Signal read_signal(const Table& table, const ColumnUse& use) {
+Signal read_signal(const LogFile& log, const ColumnUse& use, bool may_miss) {
+  const Table& table = log.table;
   const Column& column = find_column(table, use);
   Signal signal;
   signal.unit = declared_unit(column, table, use);
   const double factor = unit_factor(signal.unit, use.expected_unit, use.owner,
                                     use.unit.empty() ? Place_in_file{table.file, 1, use.name} : use.place);
-  require_finite(table, use.name);
-  signal.values = factor * column.values;
-  if (!signal.values.allFinite()) {
+  refuse_bad_cell(log, column.name, may_miss);
+  signal.values = (factor * use.scale * column.values).array() + use.offset;
+  if (use.turn > 0.0) {
+    unwrap(use.turn, signal.values);
+  }
+  const auto too_large = [](double value) { return std::isinf(value); };
+  if (std::any_of(signal.values.begin(), signal.values.end(), too_large)) {
     throw InputError({table.file, 0, use.name}, "a number too large for SI", "finite numbers in SI");
   }
   return signal;
 }
 
-double checked_period(const Eigen::VectorXd& time, const Table& table, const std::string& column) {
-  const Place_in_file where{table.file, 0, column};
-  const Eigen::Index n = time.size();
-  if (n < kFewestSamples) {
-    throw InputError(where, std::to_string(n) + " samples",
-                     "at least " + std::to_string(kFewestSamples) + " samples");
+RowTimes row_times(const TrialFile& file, const LogFile& log) {
+  RowTimes times;
+  const Eigen::Index n = log.table.rows();
+  if (file.rate > 0.0) {
+    times.time = Eigen::VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / file.rate;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      times.rows.push_back(k);
+    }
+    return times;
   }
-  for (Eigen::Index k = 1; k < n; ++k) {
-    if (!(time[k] > time[k - 1])) {
-      const std::string what = time[k] == time[k - 1] ? "the time of the row before again, " : "time ";
-      throw InputError(where, what + seconds(time[k]) + " in " + row_name(k),
-                       "a time above " + seconds(time[k - 1]) + " of the row before");
+  const Eigen::VectorXd all = read_signal(log, file.time, file.fill_missing).values;
+  const Place_in_file where{log.table.file, 0, file.time.name};
+  const auto most = static_cast<Eigen::Index>(kMostLeftOut * static_cast<double>(n));
+  Eigen::Index not_rising = 0;
+  Eigen::Index without = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (!std::isfinite(all[k])) {
+      ++without;
+      continue;
+    }
+    const double before = times.rows.empty() ? all[k] - 1.0 : all[times.rows.back()];
+    if (all[k] > before) {
+      times.rows.push_back(k);
+      continue;
+    }
+    if (++not_rising > most) {
+      const std::string what = all[k] == before ? "the time of the row before again, " : "time ";
+      throw InputError(where, what + seconds(all[k]) + " in " + row_name(k),
+                       "a time above " + seconds(before) + " of the row before");
     }
   }
-  const double usual = median_step(time);
-  for (Eigen::Index k = 1; k < n; ++k) {
-    const double step = time[k] - time[k - 1];
-    if (std::abs(step - usual) > kUniform * usual) {
-      throw InputError(where,
-                       "a step of " + seconds(step) + " from " + seconds(time[k - 1]) + " to " +
-                           seconds(time[k]) + " in " + row_name(k),
-                       "steps within 1 % of the usual " + seconds(usual));
-    }
+  times.time = kept(all, times.rows);
+  if (not_rising > 0) {
+    times.remarks.push_back("Left out: " + std::to_string(not_rising) +
+                            " rows whose time is not above that of the row before.");
   }
-  return (time[n - 1] - time[0]) / static_cast<double>(n - 1);
+  if (without > 0) {
+    times.remarks.push_back("Left out: " + std::to_string(without) + " rows without a time.");
+  }
+  if (times.time.size() > 0 && std::abs(times.time[0]) > kAbsolute) {
+    times.remarks.push_back("Times are absolute: they are counted from the first row, at " +
+                            number_text(times.time[0], 15) + " s.");
+    times.time.array() -= times.time[0];
+  }
+  return times;
+}
+
+Eigen::VectorXd kept(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows) {
+  Eigen::VectorXd some(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    some[static_cast<Eigen::Index>(i)] = values[rows[i]];
+  }
+  return some;
 }
 
 }  // namespace plumbline::validation

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
-#include "simulator/trace/table.h"
+#include "simulator/trace/log_file.h"
 #include "validation/trial/trial_file.h"
 
 namespace plumbline::validation {
@@ -15,16 +16,29 @@ namespace plumbline::validation {
 std::string data_path(const TrialFile& file, const std::string& data_folder);
 
 struct Signal {
-  Eigen::VectorXd values;  ///< SI
+  Eigen::VectorXd values;  ///< SI; NaN where a cell is missing
   std::string unit;        ///< as declared
 };
 
 /// Throws InputError when the column is missing (with the nearest names), its unit is missing, wrong or not
-/// the one that the data file states, or a value is NaN or infinite (with its row).
-Signal read_signal(const Table& table, const ColumnUse& use);
+/// the one that the data file states, or a cell is no finite number (with its line or row): text and
+/// infinities always, a missing cell unless `may_miss`.
+Signal read_signal(const LogFile& log, const ColumnUse& use, bool may_miss);
 
-/// Checks a time column in s: at least 20 samples, rising, every step within 1 % of the median step. Messages
-/// name the row (1 is the first below the header) and the values. Returns the mean step, s.
-double checked_period(const Eigen::VectorXd& time, const Table& table, const std::string& column);
+/// The rows of a log that have a time, and that time.
+struct RowTimes {
+  std::vector<Eigen::Index> rows;  ///< of the log; others are left out
+  Eigen::VectorXd time;            ///< s, rising
+  std::vector<std::string> remarks;
+};
+
+/// Of the time column, or row by row of the rate. A time that begins later than 10^7 s is an absolute one
+/// (seconds since 1970, or since a machine was started): it is counted from the first row. A time that is not
+/// above the one before is refused; up to 1 % of the rows, which happens where a log is written by two
+/// threads, are left out with a remark.
+RowTimes row_times(const TrialFile& file, const LogFile& log);
+
+/// Values of the rows that are kept.
+Eigen::VectorXd kept(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& rows);
 
 }  // namespace plumbline::validation

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <set>
 
+#include "simulator/model/effect_list.h"
 #include "simulator/model/kinds.h"
+#include "simulator/model/known_effects.h"
 #include "simulator/model/quantity.h"
 #include "simulator/model/yaml_chain.h"
+#include "simulator/trace/units.h"
 #include "validation/trial/physical_number.h"
 
 namespace plumbline::validation {
@@ -48,13 +51,49 @@ void check_measured(const YamlNode& node, const std::string& name, const Model& 
   }
 }
 
+void read_scale(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
+                ColumnUse& use) {
+  if (const auto scale = node.find("scale")) {
+    use.scale = scale->number();
+    if (use.scale == 0.0) {
+      scale->refuse("a number that is not zero");
+    }
+  }
+  if (const auto offset = node.find("offset")) {
+    use.offset = read_physical(*offset, expected_unit, owner);
+  }
+}
+
+/// `true` for an angle, or after what the column wraps around.
+void read_wrap(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
+               ColumnUse& use) {
+  constexpr double kTurn = 6.283185307179586476925286766559;
+  const auto unwrap = node.find("unwrap");
+  if (!unwrap) {
+    return;
+  }
+  if (unwrap->is_map()) {
+    use.turn = read_physical(*unwrap, expected_unit, owner);
+  } else if (unwrap->flag()) {
+    use.turn = kTurn;
+    if (!units_agree(expected_unit, "rad")) {
+      unwrap->refuse("true where nothing turns",
+                     "after what it wraps: {value: ..., unit: " + expected_unit + "}");
+    }
+  }
+  if (unwrap->is_map() && !(use.turn > 0.0)) {
+    unwrap->refuse("a turn that is not above zero", "the range of the column before it begins anew");
+  }
+}
+
 ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
-                      const std::string& further_key = "") {
+                      const std::vector<std::string>& further_keys = {}) {
   if (!node.is_map()) {
     node.refuse("a map {column: ..., unit: " + expected_unit + "}");
   }
-  node.allow_keys(further_key.empty() ? std::vector<std::string>{"column", "unit"}
-                                      : std::vector<std::string>{"column", "unit", further_key});
+  std::vector<std::string> keys{"column", "unit", "scale", "offset"};
+  keys.insert(keys.end(), further_keys.begin(), further_keys.end());
+  node.allow_keys(keys);
   ColumnUse use;
   use.name = node.at("column").text();
   use.place = node.at("column").place();
@@ -64,6 +103,7 @@ ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, co
     use.unit = unit->text();
     unit_factor(use.unit, expected_unit, owner, unit->place());  // refuses a wrong one here
   }
+  read_scale(node, expected_unit, owner, use);
   return use;
 }
 
@@ -85,13 +125,44 @@ Section read_section(const YamlNode& node) {
   return section;
 }
 
+std::optional<double> read_not_negative(const YamlNode& node, const std::string& key, const std::string& unit,
+                                        const std::string& owner) {
+  const auto given = node.find(key);
+  if (!given) {
+    return std::nullopt;
+  }
+  const double value = read_physical(*given, unit, owner);
+  if (value < 0.0) {
+    given->refuse("a value below zero", "zero or more");
+  }
+  return value;
+}
+
+/// One section or a list of them, in the order of time.
+std::vector<Section> read_sections(const YamlNode& node) {
+  if (node.is_map()) {
+    return {read_section(node)};
+  }
+  std::vector<Section> sections;
+  for (const YamlNode& item : node.items()) {
+    sections.push_back(read_section(item));
+    if (sections.size() > 1 && sections.back().from < sections[sections.size() - 2].to) {
+      item.refuse("a section that begins before the one before it ends", "sections in the order of time");
+    }
+  }
+  if (sections.empty()) {
+    node.refuse("no sections", "{from: ..., to: ...}, or a list of these");
+  }
+  return sections;
+}
+
 /// A column of its own, or the column of a force and the force above which the switch counts as closed.
 MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
   const auto above = node.is_map() ? node.find("above") : std::nullopt;
   if (!above) {
     return {name, read_column(node, "1", "contact switch " + name)};
   }
-  MeasuredUse use{name, read_column(node, "N", "the force at contact switch " + name, "above")};
+  MeasuredUse use{name, read_column(node, "N", "the force at contact switch " + name, {"above"})};
   use.above = read_physical(*above, "N", "the force at contact switch " + name);
   return use;
 }
@@ -99,12 +170,26 @@ MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
 MeasuredUse read_sensor(const YamlNode& node, const std::string& name, const Model& model) {
   check_measured(node, name, model);
   const std::string unit = model::reading_unit(model, name);
-  if (!model.find_sensor(name)->is_force_plate()) {
-    return {name, read_column(node, unit, "sensor " + name)};
+  const bool plate = model.find_sensor(name)->is_force_plate();
+  const std::string owner = (plate ? "force plate " : "sensor ") + name;
+  std::vector<std::string> keys{"resolution", "noise", "offset_uncertainty", "unwrap"};
+  if (plate) {
+    keys.emplace_back("zero");
   }
-  MeasuredUse use{name, read_column(node, unit, "force plate " + name, "zero")};
+  MeasuredUse use{name, read_column(node, unit, owner, keys)};
   if (const auto zero = node.find("zero")) {
     use.zero = read_section(*zero);
+  }
+  read_wrap(node, unit, owner, use.column);
+  use.resolution = read_not_negative(node, "resolution", unit, owner);
+  use.noise = read_not_negative(node, "noise", unit, owner);
+  use.offset_uncertainty = read_not_negative(node, "offset_uncertainty", unit, owner).value_or(0.0);
+  const model::Sensor& sensor = *model.find_sensor(name);
+  const bool stated = use.resolution || use.noise;
+  if (stated && use.resolution.value_or(sensor.resolution) == 0.0 &&
+      use.noise.value_or(sensor.noise) == 0.0) {
+    node.refuse("neither resolution nor noise above zero",
+                "one of them: together they are the channel's floor");
   }
   return use;
 }
@@ -137,10 +222,36 @@ std::vector<std::string> read_columns(const YamlNode& node) {
   return names;
 }
 
+double positive_time(const YamlNode& node) {
+  const double value = read_physical(node, "s", "a time");
+  if (!(value > 0.0)) {
+    node.refuse("a time that is not above zero", "a longer one");
+  }
+  return value;
+}
+
+void read_sampling(const YamlNode& node, LogSampling& sampling) {
+  sampling.place = node.place();
+  if (const auto resample = node.find("resample")) {
+    sampling.place = resample->place();
+    if (resample->is_map()) {
+      sampling.period = positive_time(*resample);
+    } else if (resample->text() == "even") {
+      sampling.even = true;
+    } else {
+      resample->refuse("a period {value: 5, unit: ms}, or `even` where only the stamps jitter");
+    }
+  }
+  if (const auto gap = node.find("longest_gap")) {
+    sampling.longest_gap = positive_time(*gap);
+  }
+}
+
 void read_time(const YamlNode& node, TrialFile& file) {
   const auto rate = node.is_map() ? node.find("rate") : std::nullopt;
   if (!rate) {
-    file.time = read_column(node, "s", "the time");
+    file.time = read_column(node, "s", "the time", {"resample", "longest_gap"});
+    read_sampling(node, file.sampling);
     return;
   }
   node.allow_keys({"rate"});
@@ -205,14 +316,62 @@ std::optional<int> velocity_difference(const YamlNode& node) {
   return static_cast<int>(samples);
 }
 
+/// What all kinds have: motor, sensor, limit, and over how many samples the velocity is differenced.
+void read_controller_frame(const YamlNode& node, const Model& model, Controller& c) {
+  c.kind = node.at("kind").text();
+  c.motor = node.at("motor").text();
+  c.sensor = node.at("sensor").text();
+  const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
+  check_sensor(node.at("sensor"), c.sensor, model);
+  if (!model.find_sensor(c.sensor)->shows_position()) {
+    node.at("sensor").refuse("a sensor that shows no position",
+                             "the sensor that the controller closes its loop on");
+  }
+  if (const auto limit = node.find("command_limit")) {
+    c.command_limit =
+        positive_or_refuse(*limit, read_physical(*limit, command_unit, "the command of motor " + c.motor));
+  }
+  if (const auto over = velocity_difference(node)) {
+    c.velocity_over = *over;
+  }
+}
+
+/// command = position_gain (reference - measured) + velocity_gain (d(reference)/dt - d(measured)/dt) + added.
+Controller read_pd(const YamlNode& node, const Model& model) {
+  Controller c;
+  read_controller_frame(node, model, c);
+  const std::string command = known_motor(node.at("motor"), c.motor, model).command_unit;
+  const std::string position = model::reading_unit(model, c.sensor);
+  c.position_gain =
+      model::read_quantity(node.at("position_gain"), {command + "/" + position, {}, false, {}}).value;
+  if (const auto gain = node.find("velocity_gain")) {
+    c.velocity_gain = model::read_quantity(*gain, {command + " s/" + position, {}, false, {}}).value;
+  }
+  return c;
+}
+
 ControllerUse read_controller(const YamlNode& node, const Model& model) {
-  node.allow_keys({"kind", "motor", "sensor", "reference", "position_gain", "velocity_gain", "disturbance",
-                   "command_limit", "velocity_over"});
+  std::vector<std::string> keys{"kind",        "motor",         "sensor",
+                                "reference",   "position_gain", "velocity_gain",
+                                "disturbance", "command_limit", "velocity_over"};
+  const bool is_pd = node.at("kind").text() == "pd";
+  if (is_pd) {
+    keys.insert(keys.end(), {"velocity", "reference_velocity"});
+  }
+  node.allow_keys(keys);
   ControllerUse use;
-  use.controller = read_controller_law(node, model);
+  use.place = node.place();
+  use.controller = is_pd ? read_pd(node, model) : read_controller_law(node, model);
   const Controller& c = use.controller;
-  use.reference =
-      read_column(node.at("reference"), model::reading_unit(model, c.sensor), "sensor " + c.sensor);
+  const std::string position = model::reading_unit(model, c.sensor);
+  use.reference = read_column(node.at("reference"), position, "sensor " + c.sensor, {"unwrap"});
+  read_wrap(node.at("reference"), position, "sensor " + c.sensor, use.reference);
+  if (const auto velocity = node.find("velocity")) {
+    use.velocity = read_column(*velocity, position + "/s", "the rate of sensor " + c.sensor);
+  }
+  if (const auto velocity = node.find("reference_velocity")) {
+    use.reference_velocity = read_column(*velocity, position + "/s", "the rate of sensor " + c.sensor);
+  }
   if (const auto disturbance = node.find("disturbance")) {
     use.disturbance = read_column(*disturbance, known_motor(node.at("motor"), c.motor, model).command_unit,
                                   "the command of motor " + c.motor);
@@ -230,6 +389,24 @@ std::vector<ControllerUse> read_controllers(const YamlNode& node, const Model& m
     }
   }
   return uses;
+}
+
+/// Effects that the robot had in this trial alone. Their states and released ratios would make another state
+/// of the robot's.
+std::vector<model::EffectUse> read_configuration(const YamlNode& node, const Model& model) {
+  node.allow_keys({"effects"});
+  Model changed = model;
+  changed.effects.clear();
+  const std::vector<YamlNode> items = node.at("effects").items();
+  model::read_effects(node.at("effects"), model::known_effects(), changed);
+  for (std::size_t i = 0; i < changed.effects.size(); ++i) {
+    const model::EffectUse& use = changed.effects[i];
+    if (use.law->state_count() > 0 || model.resolve(*use.law, use.at) == effects::Place::ratio) {
+      items[i].refuse(use.label() + ", which adds a state",
+                      "a payload, a spring or another effect without states");
+    }
+  }
+  return changed.effects;
 }
 
 std::vector<double> read_events(const YamlNode& node) {
@@ -269,6 +446,25 @@ void check_columns_differ(const TrialFile& file) {
   }
 }
 
+/// A pd computes the command of a motor that has none recorded, from what is measured.
+void check_laws(const TrialFile& file) {
+  for (const ControllerUse& use : file.controllers) {
+    const Controller& c = use.controller;
+    const bool recorded = std::any_of(file.commands.begin(), file.commands.end(),
+                                      [&](const CommandUse& command) { return command.motor == c.motor; });
+    const bool measured = std::any_of(file.measured.begin(), file.measured.end(),
+                                      [&](const MeasuredUse& one) { return one.sensor == c.sensor; });
+    if (!recorded && !measured) {
+      throw InputError(use.place, "sensor " + quote(c.sensor) + " not among `measured`",
+                       "it there: the command of " + c.motor + " is computed from it");
+    }
+    if (recorded && c.kind == "pd") {
+      throw InputError(use.place, "a pd at motor " + c.motor + ", whose command is recorded, too",
+                       "one of them: a pd stands for a command that was not recorded");
+    }
+  }
+}
+
 }  // namespace
 
 Role read_role(const YamlNode& node) {
@@ -276,13 +472,18 @@ Role read_role(const YamlNode& node) {
   if (text == "train") {
     return Role::train;
   }
-  if (text != "held-out") {
-    node.refuse("train or held-out" + nearest_names(text, {"train", "held-out"}));
+  if (text == "held-out") {
+    return Role::held_out;
   }
-  return Role::held_out;
+  if (text != "test") {
+    node.refuse("train, held-out or test" + nearest_names(text, {"train", "held-out", "test"}));
+  }
+  return Role::test;
 }
 
-std::string to_string(Role role) { return role == Role::train ? "train" : "held-out"; }
+std::string to_string(Role role) {
+  return role == Role::train ? "train" : role == Role::held_out ? "held-out" : "test";
+}
 
 std::string trial_yaml(const std::string& path) {
   std::error_code none;
@@ -321,25 +522,16 @@ const model::Motor& known_motor(const YamlNode& node, const std::string& name, c
 
 Controller read_controller_law(const YamlNode& node, const Model& model) {
   Controller c;
-  c.kind = node.at("kind").text();
-  if (c.kind != "cascade_pd") {
-    node.at("kind").refuse("the kind cascade_pd" + nearest_names(c.kind, {"cascade_pd"}));
+  const std::string kind = node.at("kind").text();
+  if (kind != "cascade_pd") {
+    node.at("kind").refuse("the kind cascade_pd" + nearest_names(kind, {"cascade_pd", "pd"}));
   }
-  c.motor = node.at("motor").text();
-  c.sensor = node.at("sensor").text();
+  read_controller_frame(node, model, c);
   const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
-  check_sensor(node.at("sensor"), c.sensor, model);
   const std::string position = model::reading_unit(model, c.sensor);
   c.position_gain = model::read_quantity(node.at("position_gain"), {"1/s", {}, false, {}}).value;
   c.velocity_gain =
       model::read_quantity(node.at("velocity_gain"), {command_unit + " s/" + position, {}, false, {}}).value;
-  if (const auto limit = node.find("command_limit")) {
-    c.command_limit =
-        positive_or_refuse(*limit, read_physical(*limit, command_unit, "the command of motor " + c.motor));
-  }
-  if (const auto over = velocity_difference(node)) {
-    c.velocity_over = *over;
-  }
   return c;
 }
 
@@ -350,7 +542,8 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   const YamlNode root = YamlNode::load(file.path);
   check_format(root, "trial/1");
   root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "columns", "section",
-                   "time", "commands", "measured", "locked", "start", "controllers", "events"});
+                   "leave_out", "missing", "time", "clock_shift_uncertainty", "commands", "measured",
+                   "locked", "configuration", "start", "controllers", "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -364,10 +557,22 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   }
   read_time(root.at("time"), file);
   if (const auto section = root.find("section")) {
-    file.section = read_section(*section);
+    file.sections = read_sections(*section);
+  }
+  if (const auto left_out = root.find("leave_out")) {
+    file.left_out = read_sections(*left_out);
+  }
+  if (const auto missing = root.find("missing")) {
+    file.fill_missing = missing->text() == "fill";
+    if (!file.fill_missing && missing->text() != "refuse") {
+      missing->refuse("refuse (the default) or fill" + nearest_names(missing->text(), {"refuse", "fill"}));
+    }
+  }
+  if (const auto shift = root.find("clock_shift_uncertainty")) {
+    file.clock_shift_uncertainty = positive_time(*shift);
   }
   file.measured = read_measured(root.at("measured"), model);
-  if (!model.motors.empty() || root.has("commands")) {
+  if (root.has("commands") || (!model.motors.empty() && !root.has("controllers"))) {
     file.commands = read_commands(root.at("commands"), model);
   }
   if (const auto start = root.find("start")) {
@@ -376,6 +581,9 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   if (const auto locked = root.find("locked")) {
     file.locks = read_locks(*locked, model);
   }
+  if (const auto configuration = root.find("configuration")) {
+    file.configuration = read_configuration(*configuration, model);
+  }
   if (const auto controllers = root.find("controllers")) {
     file.controllers = read_controllers(*controllers, model);
   }
@@ -383,6 +591,7 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
     file.events = read_events(*events);
   }
   check_columns_differ(file);
+  check_laws(file);
   return file;
 }
 

@@ -18,6 +18,9 @@ struct ColumnUse {
   std::string expected_unit;  ///< of the sensor or motor it belongs to
   std::string owner;          ///< "sensor q", for messages
   Place_in_file place;
+  double scale = 1.0;   ///< of what stands in the column: -1 turns it over, 0.088 makes degrees of counts
+  double offset = 0.0;  ///< added behind that, SI
+  double turn = 0.0;    ///< the column wraps around after this, SI; 0: it does not
 };
 
 /// A stretch of the recording, s.
@@ -30,8 +33,11 @@ struct Section {
 struct MeasuredUse {
   std::string sensor;
   ColumnUse column;
-  std::optional<Section> zero{};  ///< of a force plate: when nothing stood on it
-  std::optional<double> above{};  ///< of a contact switch that is read off a force: closed above it, N
+  std::optional<Section> zero{};       ///< of a force plate: when nothing stood on it
+  std::optional<double> above{};       ///< of a contact switch that is read off a force: closed above it, N
+  std::optional<double> resolution{};  ///< of this record in place of the model's, SI
+  std::optional<double> noise{};
+  double offset_uncertainty = 0.0;  ///< SI
 };
 struct CommandUse {
   std::string motor;
@@ -40,7 +46,18 @@ struct CommandUse {
 struct ControllerUse {
   Controller controller;  ///< without the recorded signals
   ColumnUse reference;
-  std::optional<ColumnUse> disturbance;
+  std::optional<ColumnUse> disturbance{};
+  std::optional<ColumnUse> velocity{};            ///< of a pd; without it the measurement is differenced
+  std::optional<ColumnUse> reference_velocity{};  ///< of a pd; without it none
+  Place_in_file place{};
+};
+
+/// How uneven sampling becomes even.
+struct LogSampling {
+  double period = 0.0;       ///< s; 0: the median step, and even sampling stays as it is
+  bool even = false;         ///< the samples were even, only their stamps jitter
+  double longest_gap = 0.0;  ///< s; over longer gaps nothing is interpolated; 0: five periods
+  Place_in_file place{};
 };
 
 struct TrialFile {
@@ -55,16 +72,21 @@ struct TrialFile {
   std::vector<std::string> columns;  ///< of a data file without header; empty: it has one
   ColumnUse time;                    ///< without a name where the rate is given
   double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
-  std::optional<Section> section;    ///< empty: the whole recording
+  LogSampling sampling;
+  bool fill_missing = false;      ///< cells without a number are bridged like gaps; else they are refused
+  std::vector<Section> sections;  ///< what the trial is made of; empty: the whole recording
+  std::vector<Section> left_out;  ///< and what is not used of it
+  double clock_shift_uncertainty = 0.0;  ///< s
   std::vector<MeasuredUse> measured;
   std::vector<CommandUse> commands;
   std::vector<ControllerUse> controllers;
   std::vector<Lock> locks;
+  std::vector<model::EffectUse> configuration;
   std::vector<Start> start;
   std::vector<double> events;
 };
 
-/// train or held-out.
+/// train, held-out or test.
 Role read_role(const model::YamlNode& node);
 
 /// The trial.yaml that a path to it or to its folder means.

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "simulator/model/effect_list.h"
 #include "simulator/model/kinds.h"
 #include "simulator/trace/number_text.h"
 #include "simulator/trace/table.h"
@@ -51,9 +52,14 @@ class TrialWriter {
     entry("data", "data.csv");
     out_ << YAML::Key << "time" << YAML::Value;
     column("t", "s", trial_.time);
+    write_stretches();
+    if (trial_.clock_shift_uncertainty > 0.0) {
+      quantity("clock_shift_uncertainty", trial_.clock_shift_uncertainty, "s", "");
+    }
     write_commands();
     write_measured();
     write_locks();
+    write_configuration();
     write_controllers();
     write_events();
     out_ << YAML::EndMap;
@@ -65,11 +71,33 @@ class TrialWriter {
  private:
   void entry(const char* key, const std::string& value) { out_ << YAML::Key << key << YAML::Value << value; }
 
-  /// The column goes to the table, its name and unit to trial.yaml.
-  void column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
+  /// The column goes to the table, its name and unit to trial.yaml; the map stays open.
+  void begin_column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
     table_.columns.push_back({name, unit, si / to_si_factor(unit)});
     out_ << YAML::Flow << YAML::BeginMap << YAML::Key << "column" << YAML::Value << name << YAML::Key
-         << "unit" << YAML::Value << unit << YAML::EndMap;
+         << "unit" << YAML::Value << unit;
+  }
+
+  void column(const std::string& name, const std::string& unit, const Eigen::VectorXd& si) {
+    begin_column(name, unit, si);
+    out_ << YAML::EndMap;
+  }
+
+  void write_sensor(const Measured& measured) {
+    const std::string unit = model::reading_unit(model_, measured.sensor);
+    out_ << YAML::Key << measured.sensor << YAML::Value;
+    begin_column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
+                 or_else(measured.unit, unit), measured.values);
+    if (measured.resolution) {
+      quantity("resolution", *measured.resolution, unit, "");
+    }
+    if (measured.noise) {
+      quantity("noise", *measured.noise, unit, "");
+    }
+    if (measured.offset_uncertainty > 0.0) {
+      quantity("offset_uncertainty", measured.offset_uncertainty, unit, "");
+    }
+    out_ << YAML::EndMap;
   }
 
   void quantity(const char* key, double value, const std::string& unit, const std::string& source) {
@@ -79,6 +107,22 @@ class TrialWriter {
       entry("source", source);
     }
     out_ << YAML::EndMap;
+  }
+
+  /// What lies between two stretches is left out; where no sample does, a time between two samples is.
+  void write_stretches() {
+    if (trial_.stretches.size() < 2) {
+      return;
+    }
+    constexpr double kBehind = 0.25;  // samples
+    out_ << YAML::Key << "leave_out" << YAML::Value << YAML::BeginSeq;
+    for (std::size_t i = 0; i + 1 < trial_.stretches.size(); ++i) {
+      out_ << YAML::Flow << YAML::BeginMap;
+      quantity("from", trial_.time[trial_.stretches[i].end - 1] + kBehind * trial_.period, "s", "");
+      quantity("to", trial_.time[trial_.stretches[i + 1].first] - kBehind * trial_.period, "s", "");
+      out_ << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq;
   }
 
   void write_commands() {
@@ -97,9 +141,7 @@ class TrialWriter {
   void write_measured() {
     out_ << YAML::Key << "measured" << YAML::Value << YAML::BeginMap;
     for (const Measured& measured : trial_.measured) {
-      out_ << YAML::Key << measured.sensor << YAML::Value;
-      column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
-             or_else(measured.unit, model::reading_unit(model_, measured.sensor)), measured.values);
+      write_sensor(measured);
     }
     for (const SwitchRecord& record : trial_.switches) {
       out_ << YAML::Key << record.name << YAML::Value;
@@ -117,6 +159,28 @@ class TrialWriter {
       quantity(lock.at.c_str(), lock.value, unit_of_place(model_, lock.at), "");
     }
     out_ << YAML::EndMap;
+  }
+
+  void write_configuration() {
+    if (trial_.configuration.empty()) {
+      return;
+    }
+    out_ << YAML::Key << "configuration" << YAML::Value << YAML::BeginMap << YAML::Key << "effects"
+         << YAML::Value << YAML::BeginSeq;
+    for (const model::EffectUse& use : trial_.configuration) {
+      const effects::Declaration& law = use.law->declaration();
+      out_ << YAML::BeginMap;
+      entry("effect", law.name);
+      entry("at", use.at);
+      out_ << YAML::Key << "values" << YAML::Value << YAML::BeginMap;
+      for (std::size_t i = 0; i < use.values.size(); ++i) {
+        const std::string si = model::parameter_unit(model_, *use.law, use.at, static_cast<int>(i));
+        quantity(law.parameters[i].name.c_str(), use.values[i].value, si,
+                 or_else(use.values[i].source, kGainSource));
+      }
+      out_ << YAML::EndMap << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq << YAML::EndMap;
   }
 
   void write_controllers() {

@@ -142,14 +142,19 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
 namespace {
 
 /// Closed and open switches at each sample, 1 and 0.
-std::vector<SwitchRecord> switch_records(model::Plant& plant, const integrate::RunResult& result) {
+std::vector<SwitchRecord> switch_records(model::Plant& plant, const integrate::RunResult& result,
+                                         double period) {
   std::vector<SwitchRecord> records;
   for (const model::ContactSwitch& one : plant.model().switches) {
-    SwitchRecord record{one.name, "", Eigen::VectorXd::Zero(result.states.cols())};
+    Eigen::VectorXd closed = Eigen::VectorXd::Zero(result.states.cols());
     for (Eigen::Index k = 0; k < result.states.cols(); ++k) {
-      record.values[k] = plant.foot_depth(one.foot, result.states.col(k).data()).depth > 0.0 ? 1.0 : 0.0;
+      const double* x = result.states.col(k).data();
+      const bool touches = plant.foot_depth(one.foot, x).depth > 0.0;
+      const bool presses = one.threshold == 0.0 ||
+                           plant.touches(x)[static_cast<std::size_t>(one.foot)].force.z() > one.threshold;
+      closed[k] = touches && presses ? 1.0 : 0.0;
     }
-    records.push_back(std::move(record));
+    records.push_back(record_of(one, "", read_late(one, closed, period)));
   }
   return records;
 }
@@ -193,7 +198,7 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
     channel.values = result.readings.row(static_cast<Eigen::Index>(s)).transpose();
     trial.measured.push_back(std::move(channel));
   }
-  trial.switches = switch_records(plant, result);
+  trial.switches = switch_records(plant, result, experiment.period);
   trial.contact_events = contact_events(trial);
   return trial;
 }

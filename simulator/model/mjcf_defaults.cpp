@@ -1,0 +1,48 @@
+#include "simulator/model/mjcf_defaults.h"
+
+namespace plumbline::model {
+
+using tinyxml2::XMLElement;
+
+MjcfDefaults::MjcfDefaults(const XMLElement& mujoco) {
+  for (const XMLElement* top = mujoco.FirstChildElement("default"); top != nullptr;
+       top = top->NextSiblingElement("default")) {
+    add(*top, "");
+  }
+}
+
+void MjcfDefaults::add(const XMLElement& element, const std::string& parent) {
+  const char* given = element.Attribute("class");
+  const std::string name = given != nullptr ? given : "main";
+  if (parent.empty()) {
+    main_ = name;
+  }
+  classes_[name] = {&element, parent};
+  for (const XMLElement* child = element.FirstChildElement("default"); child != nullptr;
+       child = child->NextSiblingElement("default")) {
+    add(*child, name);
+  }
+}
+
+const char* MjcfDefaults::attribute(const XMLElement& element, const char* name,
+                                    const std::string& childclass) const {
+  if (const char* own = element.Attribute(name)) {
+    return own;
+  }
+  const char* given = element.Attribute("class");
+  std::string at = given != nullptr ? given : childclass.empty() ? main_ : childclass;
+  while (!at.empty()) {
+    const auto known = classes_.find(at);
+    if (known == classes_.end()) {
+      return nullptr;
+    }
+    const XMLElement* here = known->second.element->FirstChildElement(element.Name());
+    if (here != nullptr && here->Attribute(name) != nullptr) {
+      return here->Attribute(name);
+    }
+    at = known->second.parent;
+  }
+  return nullptr;
+}
+
+}  // namespace plumbline::model
