@@ -19,5 +19,5 @@ draw plane mabel_planar.yaml hop_strip --from 1.499s --to 1.859s --strip 13 --si
 draw boom mabel.yaml hop_boom --at 1.54s --camera boom --size 800x480
 
 hopper=robots/hopper
-"$program" twin $hopper/hopper.yaml --with ground_stiffness_error@toe:scale=1.1 --experiment $hopper/experiments/bounce.yaml -o "$work/twin"
+"$program" twin --model $hopper/hopper.yaml --with ground_stiffness_error@toe:scale=1.1 --experiment $hopper/experiments/bounce.yaml -o "$work/twin"
 "$program" render "$work/twin/bounce" --at 0.93s --size 720x560 -o docs/images/hopper.png

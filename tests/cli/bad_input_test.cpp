@@ -353,8 +353,8 @@ INSTANTIATE_TEST_SUITE_P(
                  {"new.yaml:", "found viscous at drive twice, expected"}},
         BadInput{"twin_effect",
                  {},
-                 {"twin", kModel, "--with", "culomb@drive:level=1", "--experiment", "experiments/steps.yaml",
-                  "--out", "new"},
+                 {"twin", "--model", kModel, "--with", "culomb@drive:level=1", "--experiment",
+                  "experiments/steps.yaml", "--out", "new"},
                  {"culomb", "did you mean coulomb"}},
         BadInput{"free_nothing",
                  {},
@@ -445,7 +445,8 @@ INSTANTIATE_TEST_SUITE_P(
                  {"trials/steps: found a folder that is not empty, expected"}},
         BadInput{"twin_below_a_file",
                  {},
-                 {"twin", kModel, "--experiment", "experiments/steps.yaml", "--out", "robot/model.yaml"},
+                 {"twin", "--model", kModel, "--experiment", "experiments/steps.yaml", "--out",
+                  "robot/model.yaml"},
                  {"robot/model.yaml/steps: found", "expected"}}),
     name_of);
 

@@ -30,7 +30,7 @@ TEST_F(RecipeCommand, PrintsTrueAndRecoveredValues) {
   const json step = all["steps"][0];
   EXPECT_THAT(keys(step),
               UnorderedElementsAre("step", "title", "source", "method", "carried", "before", "after", "used",
-                                   "converged", "seconds", "findings", "correlations", "untold", "weak"));
+                                   "converged", "seconds", "findings", "correlations", "not_identifiable", "weak"));
   const json found = step["findings"][0];
   EXPECT_THAT(keys(found), UnorderedElementsAre("unknown", "unit", "true", "recovered", "standard_deviation",
                                                 "interval", "seen", "covered", "target", "met"));
