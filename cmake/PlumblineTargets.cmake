@@ -49,6 +49,29 @@ function(plumbline_library name)
   plumbline_options(plumbline_${name})
 endfunction()
 
+# Where controllers' libraries are built, and looked for first.
+set(PLUMBLINE_CONTROLLERS ${CMAKE_BINARY_DIR}/controllers)
+
+# plumbline_controller(NAME SOURCES a.cpp ...): a controller, NAME.so in build/controllers. It exports
+# plumbline_controller() and nothing else, so that several can be loaded into one program.
+function(plumbline_controller name)
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
+  add_library(controller_${name} MODULE ${ARG_SOURCES})
+  set_target_properties(controller_${name} PROPERTIES OUTPUT_NAME ${name} PREFIX "" SUFFIX .so
+    LIBRARY_OUTPUT_DIRECTORY ${PLUMBLINE_CONTROLLERS} C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON LINK_DEPENDS ${CMAKE_SOURCE_DIR}/controllers/controller.map)
+  target_include_directories(controller_${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  # The same file wherever the project lies: its hash is the controller's identity.
+  target_compile_options(controller_${name} PRIVATE -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
+  target_link_options(controller_${name} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/controllers/controller.map)
+  if(NOT PLUMBLINE_SANITIZE)
+    target_link_options(controller_${name} PRIVATE -Wl,--no-undefined)
+  endif()
+  target_link_libraries(controller_${name} PRIVATE m)
+  plumbline_options(controller_${name})
+endfunction()
+
 # plumbline_test(NAME SOURCES a.cpp ... LIBS x y [LABEL slow]): a GoogleTest program, one ctest entry.
 function(plumbline_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LIBS" ${ARGN})

@@ -7,13 +7,15 @@
  * Life of a controller:
  *
  *     const plumbline_controller_api *api = plumbline_controller();
- *     void *self = api->create(&setup, message, sizeof message);   allocates; NULL and a message where it
- * refuses api->reset(self);                                            before the first step and after every
- * stop api->step(self, inputs, outputs, log);                       once every period api->destroy(self);
+ *     void *self = api->create(&setup, message, sizeof message);   allocates; NULL and a message where it refuses
+ *     api->reset(self);                                            before the first step and after every stop
+ *     api->step(self, inputs, outputs, log);                       once every period
+ *     api->destroy(self);
  *
- * step() is real-time code: it neither allocates, blocks, throws nor calls the operating system, and its time
- * is bounded. Equal inputs after reset() give equal outputs, to the last bit: no clock, no random numbers, no
- * state outside `self`. */
+ * step() is real-time code: it neither allocates, blocks, throws nor calls the operating system, and its time is
+ * bounded. Equal inputs after reset() give equal outputs, to the last bit: no clock, no random numbers, no state
+ * outside `self`. */
+/* clang-format off */
 #ifndef PLUMBLINE_CONTROLLER_H
 #define PLUMBLINE_CONTROLLER_H
 
@@ -36,9 +38,8 @@ typedef enum plumbline_port_kind {
 
 /* One input, output, constant, logged value or memory of the controller. */
 typedef struct plumbline_port {
-  const char *name; /* letters, digits and underscores; unique in its list */
-  const char
-      *unit; /* SI, as udunits2 reads it: "rad", "N m", "1". Of a count: the unit of count times scale */
+  const char *name;         /* letters, digits and underscores; unique in its list */
+  const char *unit;         /* SI, as udunits2 reads it: "rad", "N m", "1". Of a count: the unit of count times scale */
   plumbline_port_kind kind; /* outputs, constants, log and memory: PLUMBLINE_VALUE */
   double lower;             /* least value that the controller takes or gives; -INFINITY: none */
   double upper;             /* largest one; INFINITY: none */
@@ -64,8 +65,8 @@ typedef struct plumbline_controller_api {
   uint32_t constant_count;
   const plumbline_port *log; /* what step() reports beside its outputs: phase, references, errors */
   uint32_t log_count;
-  /* Numbers that outlast a stride, such as an angle that is updated at each landing. A host may read and set
-   * them between two steps, to find the return map of a gait. */
+  /* Numbers that outlast a stride, such as an angle that is updated at each landing. A host may read and set them
+   * between two steps, to find the return map of a gait. */
   const plumbline_port *memory;
   uint32_t memory_count;
 
@@ -74,8 +75,8 @@ typedef struct plumbline_controller_api {
   void *(*create)(const plumbline_setup *setup, char *message, size_t message_size);
   /* As just created. */
   void (*reset)(void *self);
-  /* One sample. 0: all is well. Any other number: the controller gives up, outputs are all 0 from then on
-   * until reset(), and fault() says why. `log` may be NULL. */
+  /* One sample. 0: all is well. Any other number: the controller gives up, outputs are all 0 from then on until
+   * reset(), and fault() says why. `log` may be NULL. */
   int (*step)(void *self, const double *inputs, double *outputs, double *log);
   /* In words, what a number that step() returned means. Never NULL; lives as long as the library. */
   const char *(*fault)(int code);
@@ -84,7 +85,10 @@ typedef struct plumbline_controller_api {
   void (*destroy)(void *self); /* NULL is allowed */
 } plumbline_controller_api;
 
-/* The one function that the library exports. Never NULL. */
+/* The one function that the library exports, also where it is compiled with hidden symbols. Never NULL. */
+#if defined(__GNUC__)
+__attribute__((visibility("default")))
+#endif
 const plumbline_controller_api *plumbline_controller(void);
 
 /* Its name, for dlsym. */

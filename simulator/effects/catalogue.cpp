@@ -16,6 +16,7 @@
 #include "simulator/effects/coulomb_directional.h"
 #include "simulator/effects/encoder_offset.h"
 #include "simulator/effects/encoder_scale.h"
+#include "simulator/effects/gear_friction.h"
 #include "simulator/effects/gravity_tilt.h"
 #include "simulator/effects/hard_stop.h"
 #include "simulator/effects/hardening.h"
@@ -45,6 +46,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const ViscousDirectional>(),
       std::make_shared<const CoulombDirectional>(),
       std::make_shared<const LoadFriction>(),
+      std::make_shared<const GearFriction>(),
       std::make_shared<const Quadratic>(),
       std::make_shared<const Hysteresis>(),
       std::make_shared<const Backlash>(),

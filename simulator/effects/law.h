@@ -89,7 +89,9 @@ class Law {
 struct Motion {
   double position = 0.0;
   double velocity = 0.0;
-  double load = 0.0;  ///< torque the motor delivers at this place (0 where there is no motor)
+  /// Torque the motor delivers at this place, or what its gear passes on (ForceLaw::feels_gear_load); 0 where
+  /// there is no motor.
+  double load = 0.0;
 };
 
 /// A generalised force at a coordinate, motor or stretch.
@@ -100,6 +102,8 @@ class ForceLaw : public Law {
   virtual double force(const Motion& m, const double* state, const double* p) const = 0;
   virtual double stored_energy(const Motion& m, const double* state, const double* p) const;
   virtual double dissipated_power(const Motion& m, const double* state, const double* p) const;
+  /// Is Motion::load the torque that the motor's gear passes on, not the one that the motor delivers?
+  virtual bool feels_gear_load() const { return false; }
   /// d(state)/dt, state_count() values written to `rate`.
   virtual void state_rate(const Motion& m, const double* state, const double* p, double* rate) const;
   /// Switching functions: the law is smooth between their zeros. Appended to `g`; always the same number.

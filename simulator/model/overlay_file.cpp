@@ -1,6 +1,8 @@
 // Writes overlays: what `add` and `fit` leave behind.
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+
 #include "simulator/model/effect_list.h"
 #include "simulator/model/robot_reader.h"
 #include "simulator/model/yaml_chain.h"
@@ -21,9 +23,11 @@ void emit_effect(YAML::Emitter& out, const AddedEffect& added, const effects::La
   out << YAML::Key << "values" << YAML::Value << YAML::BeginMap;
   for (int i = 0; i < law.parameter_count(); ++i) {
     const auto index = static_cast<std::size_t>(i);
+    const double deviation = index < added.deviations.size() ? added.deviations[index] : std::nan("");
+    const bool found = std::isfinite(deviation);
     emit_quantity(out, law.declaration().parameters[index].name,
-                  {added.values[index], parameter_unit(base, law, added.at, i), 0.0, "assumed",
-                   note.empty() ? "a start value, not measured" : note});
+                  {added.values[index], parameter_unit(base, law, added.at, i), found ? deviation : 0.0,
+                   found ? "source" : "assumed", note.empty() ? "a start value, not measured" : note});
   }
   out << YAML::EndMap << YAML::EndMap;
 }

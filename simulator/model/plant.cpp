@@ -23,6 +23,14 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   }
   n_ = n_tree_ + motors() + static_cast<int>(model_.pulleys.size());
   torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
+  gear_load_ = torque_;
+  motor_pulleys_ = torque_;
+  for (const Inertia& inertia : model_.inertias) {
+    const int motor = model_.motor_index(inertia.at);
+    if (motor >= 0) {
+      motor_pulleys_[motor] += inertia.value.value;
+    }
+  }
   reduce(locks);
   place_effects();
   place_sensors();
@@ -195,6 +203,7 @@ void Plant::place_force(const effects::ForceLaw& law, int effect, int& next_stat
   slot.law = &law;
   slot.effect = effect;
   slot.active = !law.is_null(values(effect));
+  gear_friction_ = gear_friction_ || law.feels_gear_load();
   const Place place = model_.resolve(law, use.at);
   std::string motor = use.at;
   if (place == Place::ratio) {
@@ -207,6 +216,7 @@ void Plant::place_force(const effects::ForceLaw& law, int effect, int& next_stat
   for (int m = 0; m < motors(); ++m) {
     if (model_.motors[static_cast<std::size_t>(m)].name == motor) {
       slot.motor = m;
+      slot.at_motor = place == Place::motor;
     }
   }
   if (law.state_count() > 0 && slot.active) {

@@ -200,9 +200,10 @@ class Plant {
   struct ForceSlot {
     const effects::ForceLaw* law = nullptr;
     int effect = 0;
-    int state = -1;      // index in x of its first hidden state
-    int motor = -1;      // motor whose torque is the load
-    bool active = true;  // false at null values: costs nothing
+    int state = -1;         // index in x of its first hidden state
+    int motor = -1;         // motor whose torque is the load
+    bool at_motor = false;  // acts on that motor itself, not on its gear
+    bool active = true;     // false at null values: costs nothing
     Line line;
   };
   struct Reach {
@@ -292,6 +293,7 @@ class Plant {
   const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
   const double* on_ground(int effect) const { return on_ground_[static_cast<std::size_t>(effect)].data(); }
   void deliver_torques(const double* x, const double* command, double* xdot);
+  void find_gear_loads(const double* x);
   void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
   void rigid_at(const double* x);
   void factor_at(const double* x);
@@ -324,6 +326,8 @@ class Plant {
   std::vector<effects::Values> on_ground_;  // the same for the ground's laws, with its changes
   std::vector<int> independent_;            // full coordinates that z are
   int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
+  bool gear_friction_ = false;     // does a law feel what a gear passes on?
+  Eigen::VectorXd motor_pulleys_;  // inertia that turns with each motor beside its rotor
   Eigen::MatrixXd S_, S_tree_;
   std::vector<std::vector<Entry>> S_rows_;  // of S_tree_
   Eigen::VectorXd q0_;
@@ -340,6 +344,7 @@ class Plant {
 
   // Work space of the last evaluation.
   Eigen::VectorXd q_, v_, h_tree_, ground_, h_, Q_, torque_, acceleration_;
+  Eigen::VectorXd gear_load_;  // what the motors' gears pass on; only where a law feels it
   Eigen::MatrixXd M_, M_tree_, SM_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd known_;  // positions and velocities that q_, v_, M_, h_ and the tree's kinematics belong to

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -17,7 +18,10 @@ effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
     position += entry.value * x[entry.index];
     velocity += entry.value * x[nz_ + entry.index];
   }
-  return {position, velocity, slot.motor < 0 ? 0.0 : torque_[slot.motor]};
+  if (slot.motor < 0) {
+    return {position, velocity, 0.0};
+  }
+  return {position, velocity, slot.law->feels_gear_load() ? gear_load_[slot.motor] : torque_[slot.motor]};
 }
 
 double Plant::torque_gain(int motor) const {
@@ -62,7 +66,36 @@ double Plant::actuator_chain(int motor, const double* x, double commanded, doubl
 void Plant::deliver_torques(const double* x, const double* command, double* xdot) {
   torque_.resize(motors());
   for (int m = 0; m < motors(); ++m) {
-    torque_[m] = actuator_chain(m, x, torque_gain(m) * command[m], xdot);
+    torque_[m] = actuator_chain(m, x, asked_torque(*this, m, command[m]), xdot);
+  }
+  if (gear_friction_) {
+    find_gear_loads(x);
+  }
+}
+
+// What a gear passes on depends on the acceleration, and this on the friction that the load makes: each pass
+// brings both nearer to each other by the friction's coefficient, which is a few hundredths.
+void Plant::find_gear_loads(const double* x) {
+  constexpr int kPasses = 4;
+  factor_at(x);
+  Eigen::VectorXd unused(nx_);
+  gear_load_ = torque_;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Q_ = -h_;
+    add_forces(x, Q_, unused.data());
+    acceleration_ = factor_.solve(Q_);
+    Eigen::VectorXd load = torque_;
+    for (const ForceSlot& slot : forces_) {
+      if (slot.active && slot.at_motor) {
+        load[slot.motor] +=
+            slot.law->force(motion(slot, x), slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+      }
+    }
+    for (int m = 0; m < motors(); ++m) {
+      load[m] -= (structure_.extra_inertia[n_tree_ + m] + motor_pulleys_[m]) *
+                 motor_lines_[static_cast<std::size_t>(m)].reduced.dot(acceleration_);
+    }
+    gear_load_ = load;
   }
 }
 
@@ -223,7 +256,7 @@ void Plant::settle(const double* command, double* x) const {
     }
   }
   for (int m = 0; m < motors(); ++m) {
-    double torque = torque_gain(m) * command[m];
+    double torque = asked_torque(*this, m, command[m]);
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
       if (slot.state >= 0) {
         slot.law->settle(torque, values(slot.effect), x + slot.state);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "simulator/effects/parameters.h"
+#include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -155,7 +156,7 @@ void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd down = Eigen::VectorXd::Zero(nx_);
   for (int m = 0; m < motors(); ++m) {
-    const double commanded = torque_gain(m) * command[m];
+    const double commanded = asked_torque(*this, m, command[m]);
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
       for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
         const int column = slot.state + k;
@@ -286,7 +287,7 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
                                        const double* x, const Eigen::MatrixXd& A, effects::Values moved,
                                        double step, Eigen::Ref<Eigen::VectorXd> column) {
   const double gain = torque_gain(motor);
-  const double here = gain * sample.command[motor];
+  const double here = asked_torque(*this, motor, sample.command[motor]);
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);

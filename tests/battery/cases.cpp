@@ -131,6 +131,7 @@ const std::vector<Robot>& robots() {
   static const std::string kMabel = "robots/mabel/";
   static const std::string kPendulum = "tests/robots/pendulum/";
   static const std::string kHopper = "robots/hopper/";
+  static const std::string kCart = "tests/robots/cart/";
   static const std::vector<Robot> kRobots{
       {"leg_bench",
        kMabel + "leg_bench.yaml",
@@ -146,7 +147,12 @@ const std::vector<Robot>& robots() {
        kHopper + "hopper.yaml",
        {kHopper + "experiments/bounce.yaml", kHopper + "experiments/steps.yaml"},
        ""},
-      {"mabel", kMabel + "mabel_planar.yaml", {}, kMabel + "hopping.yaml"}};
+      {"mabel", kMabel + "mabel_planar.yaml", {}, kMabel + "hopping.yaml"},
+      {"cart",
+       kCart + "model.yaml",
+       {kCart + "experiments/noise.yaml", kCart + "experiments/pulses.yaml",
+        kCart + "experiments/sines.yaml"},
+       ""}};
   return kRobots;
 }
 
@@ -160,14 +166,14 @@ const Robot& robot_of(const Case& one) {
 }
 
 std::vector<std::string> robots_of_rig(const std::string& rig) {
-  const std::map<std::string, std::vector<std::string>> rigs{{"bench", {"leg_bench"}},
-                                                             {"pendulum", {"pendulum"}},
-                                                             {"hopper", {"hopper"}},
-                                                             {"mabel", {"mabel"}},
-                                                             {"all", {"leg_bench", "pendulum", "hopper"}}};
+  const std::map<std::string, std::vector<std::string>> rigs{
+      {"bench", {"leg_bench"}}, {"pendulum", {"pendulum"}}, {"hopper", {"hopper"}},
+      {"mabel", {"mabel"}},     {"sealed", {"cart"}},       {"all", {"leg_bench", "pendulum", "hopper"}}};
   const auto found = rigs.find(rig);
   if (found == rigs.end()) {
-    throw std::invalid_argument("--rig: found '" + rig + "', expected bench, pendulum, hopper, mabel or all");
+    throw std::invalid_argument("--rig: found '" + rig +
+                                "', expected bench, pendulum, hopper, mabel, sealed or "
+                                "all");
   }
   return found->second;
 }
@@ -188,6 +194,8 @@ std::vector<Case> all_cases() {
   add_foreign("hopper", hopper_foreign_rows(), cases);
   add_hidden("mabel", mabel_rows(), all, cases);
   add_none("mabel", 4, cases);
+  add_hidden("cart", cart_rows(), all, cases);
+  add_none("cart", 4, cases);
   return cases;
 }
 

@@ -55,6 +55,7 @@ const std::vector<Row>& leg_bench_rows();
 const std::vector<Row>& pendulum_rows();
 const std::vector<Row>& hopper_rows();
 const std::vector<Row>& mabel_rows();
+const std::vector<Row>& cart_rows();
 /// Laws of foreign_laws.h.
 const std::vector<Row>& leg_bench_foreign_rows();
 const std::vector<Row>& pendulum_foreign_rows();
@@ -64,7 +65,8 @@ const std::vector<Row>& hopper_foreign_rows();
 using Pair = std::pair<std::string, std::string>;
 const std::vector<Pair>& leg_bench_pairs();
 
-/// The robots of a rig: bench, pendulum, hopper, mabel or all (but mabel, which takes minutes a case). Throws
+/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case, and
+/// the sealed one, which is for releases). Throws
 /// std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);
 

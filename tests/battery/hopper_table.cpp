@@ -18,6 +18,7 @@ const std::vector<Row>& hopper_rows() {
       {"coulomb_directional", "drive", "difference=0.00031|0.00086|0.0026,smoothing_speed=0.1"},
       {"quadratic", "drive", "drag=6.9e-7|1.9e-6|5.6e-6"},
       {"load_friction", "drive", "coefficient=0.00078|0.0021|0.0064,smoothing_speed=0.1"},
+      {"gear_friction", "drive", "coefficient=0.00078|0.0021|0.0064,smoothing_speed=0.1"},
       {"cogging", "drive", "sine=0.00068|0.0019|0.0056,cosine=0.00046|0.0012|0.0037,cycles=6"},
       {"torque_bias", "drive", "bias=0.00032|0.00088|0.0026"},
       {"torque_constant_error", "drive", "scale=1+0.00078|0.0021|0.0064"},

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -13,6 +14,7 @@
 
 #include "tests/battery/report.h"
 #include "tests/battery/results_file.h"
+#include "tests/battery/worlds/play.h"
 
 namespace plumbline::battery {
 namespace {
@@ -28,8 +30,9 @@ struct Inputs {
   std::string results, json, csv;
 };
 
-/// Cases of the rigs whose name contains one of the words; all when there are none.
-std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector<std::string>& words) {
+/// Cases of the rigs that the world can play, whose name contains one of the words; all when there are none.
+std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector<std::string>& words,
+                         World world) {
   std::vector<Case> cases = all_cases();
   std::vector<std::string> robots;
   for (const std::string& rig : rigs) {
@@ -37,7 +40,8 @@ std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector
     robots.insert(robots.end(), of_rig.begin(), of_rig.end());
   }
   const auto is_left_out = [&](const Case& one) {
-    if (std::find(robots.begin(), robots.end(), one.robot) == robots.end()) {
+    if (std::find(robots.begin(), robots.end(), one.robot) == robots.end() ||
+        (world != World::own && !worlds::can_play(one))) {
       return true;
     }
     return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -107,7 +111,8 @@ std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inp
 }
 
 int run(const Inputs& inputs) {
-  const std::vector<Case> cases = subset(chosen(inputs.rigs, inputs.only), inputs.subset, inputs.run.seed);
+  const std::vector<Case> cases =
+      subset(chosen(inputs.rigs, inputs.only, inputs.run.world), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
@@ -151,7 +156,8 @@ int main(int argc, char** argv) {
       ->type_name("SUBSTRING")
       ->allow_extra_args(false);
   app.add_option("--rig", inputs.rigs,
-                 "bench, pendulum, hopper, mabel or all but mabel, whose hops take minutes; may be repeated")
+                 "bench, pendulum, hopper, mabel, sealed (for releases only) or all but the last two; may be "
+                 "repeated")
       ->type_name("RIG")
       ->allow_extra_args(false)
       ->capture_default_str();
@@ -168,6 +174,19 @@ int main(int argc, char** argv) {
   app.add_flag(
       "--as-stated", inputs.run.as_stated,
       "the robot's own numbers exactly those of the model, not scattered within what is stated of them");
+  app.add_option("--world", inputs.run.world,
+                 "who makes the data: own (the simulator under test), lagrangian (equations by hand, fixed "
+                 "steps, own "
+                 "friction and contact) or mujoco")
+      ->type_name("WORLD")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, plumbline::battery::World>{
+          {"own", plumbline::battery::World::own},
+          {"lagrangian", plumbline::battery::World::lagrangian},
+          {"mujoco", plumbline::battery::World::mujoco}}));
+  app.add_flag(
+      "--lab", inputs.run.lab,
+      "foreign worlds: ratios, centres of mass, lengths, sensors' zeros and delays scattered as a laboratory "
+      "would know them, and constants of shape off the search's grid");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--timing", inputs.run.timing, "what each diagnosis does, and when, to the standard error");
   app.add_flag("--list", inputs.list, "only the names of the cases");

@@ -33,12 +33,15 @@ int inside(const Result& result) {
 
 void add_hidden(const Result& result, const Targets& targets, Summary& summary) {
   ++summary.hidden;
+  (result.one.strength == Strength::weak ? summary.weak_of_all : summary.clear_of_all).add(result.right);
   if (!result.visible) {
     return;
   }
   (result.one.strength == Strength::weak ? summary.weak : summary.clear).add(result.right);
+  summary.alone.add(result.alone);
   summary.in_larger_set += !result.right && result.in_set ? 1 : 0;
   if (result.right) {
+    summary.clean.add(result.invented == 0);
     summary.first.add(result.first == name_of(result.one.rows.front()));
     summary.at_floor.add(result.after <= targets.each_after);
     summary.after.push_back(result.after);
@@ -103,6 +106,9 @@ Summary summarise(const std::vector<Result>& results, const Targets& targets) {
                      : result.one.kind == Kind::pair ? summary.pairs
                                                      : summary.unknown;
       count.add(result.right);
+      if (&count == &summary.unknown) {
+        summary.silent.add(result.first.empty());
+      }
     }
   }
   return summary;
@@ -201,6 +207,12 @@ std::string summary_text(const Summary& s, const Targets& t) {
     text += fmt::format("  {:<48} {:<22} target {:<13} {}\n", line.what, line.measured, line.target,
                         line.enough ? mark(line.met) : "too few");
   }
+  text += fmt::format("\n  visible or not: medium and strong {}, weak {}\n", share_text(s.clear_of_all),
+                      share_text(s.weak_of_all));
+  text += fmt::format("  visible ones named themselves, not only by a rival: {}\n", share_text(s.alone));
+  text += fmt::format("  right ones with nothing invented beside: {}\n", share_text(s.clean));
+  text +=
+      fmt::format("  outside the catalogue, nothing named, not even as a part: {}\n", share_text(s.silent));
   text += fmt::format("\n  of the right ones {} named first; {} with an error above {} floors\n",
                       share_text(s.first), s.at_floor.of - s.at_floor.met, t.each_after);
   text += fmt::format("  a case takes {:.1f} s of processor, median\n", median(s.processor_seconds));
@@ -262,6 +274,11 @@ void write_json(const std::string& file, const std::vector<Result>& results, con
                      {"pairs", to_json(s.pairs)},
                      {"unknown", to_json(s.unknown)},
                      {"at_floor", to_json(s.at_floor)},
+                     {"clear_of_all", to_json(s.clear_of_all)},
+                     {"weak_of_all", to_json(s.weak_of_all)},
+                     {"alone", to_json(s.alone)},
+                     {"clean", to_json(s.clean)},
+                     {"silent", to_json(s.silent)},
                      {"intervals", to_json(s.intervals)},
                      {"median_after", median(s.after)},
                      {"median_seconds", median(s.seconds)},

@@ -38,6 +38,10 @@ struct Summary {
   int in_larger_set = 0;       ///< visible ones that are not right, but in the set that was named
   Count at_floor;              ///< right ones with an error below Targets::each_after
   Count intervals;
+  /// Whether visible or not; `alone`: of the visible ones those named themselves and not only by a set of
+  /// names that the data cannot tell apart; `clean`: of the right ones those with nothing else named beside.
+  Count clear_of_all, weak_of_all, alone, clean;
+  Count silent;  ///< outside the catalogue: nothing named, not even as a part of an unexplained answer
   std::vector<double> after;  ///< held-out errors of right single cases
   std::vector<double> seconds, processor_seconds;
   int errors = 0;

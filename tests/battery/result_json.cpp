@@ -27,6 +27,9 @@ nlohmann::json recovered_json(const Result& r) {
   return list;
 }
 
+/// One hidden effect, named first.
+bool is_named(const Result& r) { return r.one.rows.size() == 1 && r.first == name_of(r.one.rows.front()); }
+
 }  // namespace
 
 nlohmann::json to_json(const Result& r) {
@@ -46,6 +49,9 @@ nlohmann::json to_json(const Result& r) {
           {"recovered", recovered_json(r)},
           {"right", r.right},
           {"in_set", r.in_set},
+          {"alone", r.alone},
+          {"invented", r.invented},
+          {"shown", r.shown},
           {"held_out_before", r.before},
           {"held_out_after", r.after},
           {"seconds", r.seconds},
@@ -66,6 +72,10 @@ Result result_from(const nlohmann::json& json) {
     r.set_size = json.at("set_size");
     r.right = json.at("right");
     r.in_set = json.at("in_set");
+    // Files of versions before foreign worlds do not say these.
+    r.alone = json.value("alone", r.right && is_named(r));
+    r.invented = json.value("invented", 0);
+    r.shown = json.value("shown", 0.0);
     r.before = json.at("held_out_before");
     r.after = json.at("held_out_after");
     r.seconds = json.at("seconds");

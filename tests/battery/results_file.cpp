@@ -15,7 +15,12 @@ namespace plumbline::battery {
 namespace {
 
 std::string head_of(const RunOptions& options) {
-  return nlohmann::json{{"battery", 1}, {"seed", options.seed}, {"as_stated", options.as_stated}}.dump();
+  nlohmann::json head{{"battery", 1}, {"seed", options.seed}, {"as_stated", options.as_stated}};
+  if (options.world != World::own) {
+    head["world"] = to_string(options.world);
+    head["lab"] = options.lab;
+  }
+  return head.dump();
 }
 
 std::string text_of(const std::string& file) {

@@ -11,8 +11,12 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
+#include "tests/battery/foreign_laws.h"
 #include "tests/battery/truth.h"
+#include "tests/battery/worlds/lab.h"
+#include "tests/battery/worlds/play.h"
 #include "validation/compare/compare.h"
+#include "validation/twin/twin.h"
 
 namespace plumbline::battery {
 namespace {
@@ -23,8 +27,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// In foreign worlds the friction of a loaded drive follows what its gear passes on: of the catalogue's two
+/// laws for it either is its name.
 bool names(const model::EffectUse& truth, const std::string& effect, const std::string& at) {
-  return truth.law->declaration().name == effect && truth.at == at;
+  const std::string& hidden = truth.law->declaration().name;
+  return truth.at == at && (hidden == effect || (hidden == "load_friction" && effect == "gear_friction"));
 }
 
 /// The finding and its rivals; what is one force under two names on the robot counts once.
@@ -53,27 +60,52 @@ void recover(const validation::Finding& finding, const model::EffectUse& truth, 
   }
 }
 
-bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::EffectUse>& hidden,
-              Kind kind) {
+/// Is it among what is hidden, itself or as a name that the data or the robot cannot tell from it?
+bool is_of(const std::vector<model::EffectUse>& hidden, const validation::Finding& finding) {
+  return std::any_of(hidden.begin(), hidden.end(),
+                     [&](const model::EffectUse& truth) { return finds(finding, truth, kMostNames); });
+}
+
+/// In a lab more is off than what is hidden, and to say so is right.
+int count_invented(const validation::Diagnosis& diagnosis, const std::vector<model::EffectUse>& hidden,
+                   bool lab) {
+  return static_cast<int>(std::count_if(
+      diagnosis.accepted.begin(), diagnosis.accepted.end(), [&](const validation::Finding& finding) {
+        return !is_of(hidden, finding) && !(lab && worlds::is_of_the_lab(finding.effect));
+      }));
+}
+
+bool names_itself(const validation::Diagnosis& diagnosis, const model::EffectUse& truth) {
+  return std::any_of(
+      diagnosis.accepted.begin(), diagnosis.accepted.end(),
+      [&](const validation::Finding& finding) { return names(truth, finding.effect, finding.at); });
+}
+
+bool is_right(const validation::Diagnosis& diagnosis, const std::vector<model::EffectUse>& hidden, Kind kind,
+              bool lab) {
   const auto is_found = [&](const model::EffectUse& truth) {
     return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
                        [&](const validation::Finding& finding) { return finds(finding, truth, kMostNames); });
   };
+  const bool nothing_invented = count_invented(diagnosis, hidden, lab) == 0;
   switch (kind) {
     case Kind::none:
-      return diagnosis.accepted.empty();
+      return nothing_invented;
     case Kind::removed:
     case Kind::foreign:
       return diagnosis.verdict != validation::Verdict::missing;
     case Kind::pair:
-      return diagnosis.accepted.size() == 2 && std::all_of(hidden.begin(), hidden.end(), is_found);
+      return nothing_invented && diagnosis.accepted.size() >= 2 &&
+             std::all_of(hidden.begin(), hidden.end(), is_found) && (lab || diagnosis.accepted.size() == 2);
     case Kind::hidden:
       break;
   }
-  return !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front(), kMostNames);
+  return lab ? nothing_invented && is_found(hidden.front())
+             : !diagnosis.accepted.empty() && finds(diagnosis.accepted.front(), hidden.front(), kMostNames);
 }
 
-void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& result) {
+void judge(const validation::Diagnosis& diagnosis, const std::vector<model::EffectUse>& hidden,
+           const RunOptions& options, Result& result) {
   result.verdict = to_string(diagnosis.verdict);
   // Values that the held-out trials have helped to choose predict them no more.
   const bool open = std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
@@ -81,14 +113,17 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
   const validation::Rung& last = diagnosis.ladder.back();
   result.after = open ? last.foretold() : last.held_out();
   result.before = diagnosis.bare().foretold();
-  result.visible = result.before >= kVisible;
+  result.visible = (options.world == World::own ? result.before : result.shown) >= kVisible;
   result.ranking = diagnosis.ranking;
   result.leads = diagnosis.leads;
   result.pairs = diagnosis.pairs;
-  result.right = is_right(diagnosis, truth.hidden, result.one.kind);
-  result.in_set =
-      result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
-      finds(diagnosis.accepted.front(), truth.hidden.front(), set_size(diagnosis.accepted.front()));
+  result.right = is_right(diagnosis, hidden, result.one.kind, options.lab);
+  result.invented = count_invented(diagnosis, hidden, options.lab);
+  result.alone = result.right && std::all_of(hidden.begin(), hidden.end(), [&](const model::EffectUse& one) {
+                   return names_itself(diagnosis, one);
+                 });
+  result.in_set = result.one.kind == Kind::hidden && !diagnosis.accepted.empty() &&
+                  finds(diagnosis.accepted.front(), hidden.front(), set_size(diagnosis.accepted.front()));
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const validation::Finding& finding = diagnosis.accepted[i];
     const std::string name = finding.label();
@@ -98,7 +133,7 @@ void judge(const validation::Diagnosis& diagnosis, const Truth& truth, Result& r
     } else {
       result.others += (i > 1 ? " " : "") + name;
     }
-    for (const model::EffectUse& one : truth.hidden) {
+    for (const model::EffectUse& one : hidden) {
       if (names(one, finding.effect, finding.at) && one.law->declaration().source != "test only") {
         recover(finding, one, result);
       }
@@ -132,14 +167,37 @@ void print_ladder(const validation::Diagnosis& diagnosis) {
   }
 }
 
+/// The trials of the case, by whoever makes them.
+std::vector<validation::Trial> made(const RunOptions& options, const model::Model& bare, Draw& draw,
+                                    std::vector<model::EffectUse>& hidden, Result& result) {
+  const Case& one = result.one;
+  if (options.world == World::own) {
+    const Truth truth = truth_of(one, bare, draw, options);
+    hidden = truth.hidden;
+    result.with = truth.text;
+    return trials_of(one, bare, truth, draw, options);
+  }
+  const model::Model places = one.kind == Kind::foreign ? with_foreign_places(bare) : bare;
+  std::vector<std::string> texts;
+  for (const Row& row : one.rows) {
+    texts.push_back(drawn_effect(row, one.strength, every_law(), draw));
+    hidden.push_back(validation::parse_effect(texts.back(), places, every_law()));
+  }
+  worlds::Played played = worlds::play(
+      one, bare, texts, draw,
+      {options.seed, options.bare_only, options.as_stated, options.lab, options.world == World::mujoco});
+  result.with = played.text;
+  result.shown = played.visible;
+  return std::move(played.trials);
+}
+
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
   const model::Model bare =
       model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, model::known_effects());
   Draw draw(one, options.seed);
-  const Truth truth = truth_of(one, bare, draw, options);
-  result.with = truth.text;
-  const validation::Data data(trials_of(one, bare, truth, draw, options), {});
+  std::vector<model::EffectUse> hidden;
+  const validation::Data data(made(options, bare, draw, hidden, result), {});
   result.bare = validation::compare(bare, data).scores.held_out;
   if (!options.bare_only) {
     const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};
@@ -148,11 +206,15 @@ void run(const RunOptions& options, Result& result) {
     if (options.timing) {
       print_ladder(diagnosis);
     }
-    judge(diagnosis, truth, result);
+    judge(diagnosis, hidden, options, result);
   }
 }
 
 }  // namespace
+
+std::string to_string(World world) {
+  return world == World::own ? "own" : world == World::lagrangian ? "lagrangian" : "mujoco";
+}
 
 bool Recovered::is_inside() const {
   constexpr double kDeviations = 1.96;

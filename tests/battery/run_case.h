@@ -12,6 +12,11 @@ namespace plumbline::battery {
 constexpr double kVisible = 1.15;      ///< held-out error, in floors, from which an effect must be found
 constexpr std::size_t kMostNames = 2;  ///< a set of more names is no answer
 
+/// Who makes the data: the simulator that is tested (own), or equations of motion by hand with an integrator,
+/// a friction and a contact of their own (lagrangian), or MuJoCo.
+enum class World { own, lagrangian, mujoco };
+std::string to_string(World world);
+
 /// A fitted value of a rightly named effect, beside the one that was hidden; SI.
 struct Recovered {
   std::string name;
@@ -24,14 +29,19 @@ struct Result {
   std::string with;      ///< what was hidden, as `plumbline twin --with` reads it, joined by spaces
   double bare = 0.0;     ///< held-out error of the model as it is, in floors; nothing fitted
   bool visible = false;  ///< `before` is at least kVisible
+  /// What is hidden shows that far at best, in floors, by the foreign world alone (worlds/visibility.h); 0:
+  /// data of our own, `before` decides.
+  double shown = 0.0;
   std::string verdict;
   std::string first;   ///< first effect named, "coulomb@mLA"; empty: none
   std::string others;  ///< further accepted effects, joined by spaces
   int set_size = 0;    ///< the first name and its rivals, without those that are the same force on the robot
+  int invented = 0;    ///< accepted names that are neither hidden nor, in a lab, scattered
   /// hidden: named first, or in a set of at most kMostNames; pair: so for both, and nothing else;
   /// none: nothing named; removed, foreign: no verdict "missing"
   bool right = false;
   bool in_set = false;  ///< hidden: named, in a set of whatever size
+  bool alone = false;   ///< right without the help of a rival set: every hidden effect named itself
   /// Held-out error before anything was named: what the hidden effect does beyond what an honest change of
   /// the model's own numbers can do, where these were freed.
   double before = 0.0;
@@ -46,6 +56,8 @@ struct Result {
 
 struct RunOptions {
   std::uint64_t seed = 1;
+  World world = World::own;
+  bool lab = false;        ///< numbers without a stated uncertainty are scattered, too; foreign worlds only
   bool bare_only = false;  ///< held-out trials only and no diagnosis
   bool as_stated =
       false;            ///< the robot's own numbers are exactly those of the model, not scattered about them

@@ -20,6 +20,7 @@ const std::vector<Row>& leg_bench_rows() {
       {"viscous_directional", "mLA", "difference=5e-5|4.4e-4"},
       {"coulomb_directional", "mLA", "difference=6.5e-4|5.6e-3,smoothing_speed=0.03"},
       {"load_friction", "mLA", "coefficient=1.7e-3|0.014,smoothing_speed=0.03"},
+      {"gear_friction", "mLA", "coefficient=1.7e-3|0.014,smoothing_speed=0.03"},
       {"quadratic", "mLA", "drag=2.9e-6|2.1e-5"},
       {"cogging", "mLA", "sine=2.3e-3|0.027,cosine=1.7e-3|0.02,cycles=12"},
       {"torque_bias", "mLA", "bias=6.4e-4|5.6e-3"},
@@ -36,6 +37,7 @@ const std::vector<Row>& leg_bench_rows() {
       {"viscous_directional", "mLS", "difference=6.9e-5|6.1e-4"},
       {"coulomb_directional", "mLS", "difference=6.9e-4|6e-3,smoothing_speed=0.03"},
       {"load_friction", "mLS", "coefficient=1.7e-3|0.014,smoothing_speed=0.03"},
+      {"gear_friction", "mLS", "coefficient=1.7e-3|0.014,smoothing_speed=0.03"},
       {"quadratic", "mLS", "drag=5.2e-6|4.4e-5"},
       {"cogging", "mLS", "sine=2.4e-3|0.021,cosine=1.8e-3|0.016,cycles=12"},
       {"torque_bias", "mLS", "bias=6.9e-4|5.9e-3"},
@@ -129,6 +131,30 @@ const std::vector<Row>& pendulum_rows() {
       {"com_shift", "arm", "x=5.5e-5|4.7e-4,z=-5.5e-5|-4.7e-4"},
       {"encoder_offset", "drive", "offset=8.3e-3|0.074"},
       {"encoder_scale", "shoulder", "scale=1+1.1e-3|9.8e-3"},
+  };
+  return kRows;
+}
+
+// The sealed rig. Never used to develop: it is run once for each release (docs/battery.md).
+const std::vector<Row>& cart_rows() {
+  static const std::vector<Row> kRows{
+      {"coulomb", "belt", "level=6e-4|6e-3,smoothing_speed=0.05"},
+      {"stribeck", "belt", "level=5e-4|5e-3,rise=8e-4|8e-3,stribeck_speed=3,smoothing_speed=0.05"},
+      {"load_friction", "belt", "coefficient=0.01|0.1,smoothing_speed=0.05"},
+      {"quadratic", "belt", "drag=1.5e-5|1.2e-4"},
+      {"cogging", "belt", "sine=6e-4|6e-3,cosine=4e-4|4e-3,cycles=14"},
+      {"torque_bias", "belt", "bias=4e-4|4e-3"},
+      {"actuator_lag", "belt", "time_constant=4e-4|4e-3"},
+      {"command_delay", "belt", "delay=4e-4|4e-3"},
+      {"coulomb", "cart", "level=0.05|0.5,smoothing_speed=6e-4"},
+      {"viscous_directional", "cart", "difference=0.3|3"},
+      {"hardening", "cart", "cubic_stiffness=6e3|6e4,rest=0"},
+      {"hard_stop", "cart", "cubic_stiffness=2e5|3e6,damping=2|20,root_damping=0.3|3,position=0.012,side=1"},
+      {"unilateral_spring", "cart", "stiffness=15|120,preload=0,rest=0.004,side=-1,smoothing_length=1e-4"},
+      {"cable_stretch", "cart", "stiffness=12|1.5,damping=2e-3"},
+      {"backlash", "cart", "gap=3e-3|0.03,stiffness=30,damping=0.01"},
+      {"encoder_scale", "cart", "scale=1+1e-3|8e-3"},
+      {"encoder_offset", "belt", "offset=4e-3|0.03"},
   };
   return kRows;
 }

@@ -1,4 +1,4 @@
-// `plumbline hop` where the integrator gives up, and `plumbline simulate` with a controller.
+// `plumbline hop` where the integrator gives up, and `plumbline simulate` of a scenario.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -32,30 +32,26 @@ TEST(Hop, TheTraceIsKeptWhereTheIntegratorGivesUp) {
   EXPECT_GT(read_table(folder.path("trace.csv")).rows(), 10);
 }
 
-// The same robot from the same start; that the energy is accounted for, too, changes the steps a little.
-TEST(SimulateHopping, HopsUnderAControllerAndAccountsForTheEnergy) {
-  const std::string robot = PLUMBLINE_ROOT "/robots/mabel/";
+// A robot under its controller: trace, record and summary, with the controller's identity.
+TEST(SimulateScenario, RunsAControllerAndAccountsForTheEnergy) {
+  const std::string scenario = PLUMBLINE_ROOT "/robots/mabel/scenarios/hopping_boom.yaml";
   const TemporaryFolder folder;
-  const Outcome simulated =
-      run({"simulate", "--model", robot + "mabel.yaml", "--controller", robot + "hopping_boom.yaml", "--hops",
-           "3", "--out", folder.path("trace.csv"), "--json", folder.path("simulate.json")},
-          folder.path("."));
+  const Outcome simulated = run({"simulate", "--scenario", scenario, "--seconds", "0.8", "--energy",
+                                 "--start", "clearance=0.06", "--out", folder.path("trace.csv"), "--record",
+                                 folder.path("trial"), "--json", folder.path("simulate.json")},
+                                folder.path("."));
   ASSERT_EQ(simulated.status, 0) << simulated.err;
-  const Outcome hopped = run({"hop", robot + "mabel.yaml", robot + "hopping_boom.yaml", "--hops", "3",
-                              "--json", folder.path("hop.json")},
-                             folder.path("."));
-  ASSERT_EQ(hopped.status, 0) << hopped.err;
-  const nlohmann::json one = read_json(folder.path("simulate.json"));
-  const nlohmann::json other = read_json(folder.path("hop.json"));
-  ASSERT_EQ(one["hops"].size(), 3U);
-  EXPECT_NEAR(one["hops"][0]["travel"], other["hops"][0]["travel"], 5e-3);
-  EXPECT_NEAR(one["hops"][0]["period"], other["hops"][0]["period"], 5e-3);
-  EXPECT_FALSE(one["fell"]);
-  EXPECT_GT(one["energy"]["exchanged"], 100.0);
-  EXPECT_LT(std::abs(one["energy"]["relative_error"].get<double>()), 1e-3);
-  EXPECT_GT(one["duration"], 1.0);
+  const nlohmann::json json = read_json(folder.path("simulate.json"));
+  EXPECT_FALSE(json["fell"]);
+  EXPECT_EQ(json["controller"]["name"], "mabel_hopping");
+  EXPECT_EQ(json["controller"]["sha256"].get<std::string>().size(), 64U);
+  EXPECT_GT(json["energy"]["exchanged"], 50.0);
+  EXPECT_LT(std::abs(json["energy"]["error"].get<double>()),
+            1e-3 * json["energy"]["exchanged"].get<double>());
+  EXPECT_NEAR(json["duration"], 0.8, 1e-9);
   EXPECT_THAT(simulated.out, testing::HasSubstr("energy balance"));
   EXPECT_NE(read_table(folder.path("trace.csv")).find("u_mLA_left"), nullptr);
+  EXPECT_NE(read_table(folder.path("trial/data.csv")).find("contact_left_switch"), nullptr);
 }
 
 }  // namespace

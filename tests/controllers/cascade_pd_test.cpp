@@ -1,4 +1,4 @@
-#include "controllers/cascade_pd.h"
+#include "controllers/blocks/cascade_pd.h"
 
 #include <gtest/gtest.h>
 

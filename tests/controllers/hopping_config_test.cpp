@@ -1,4 +1,4 @@
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/hopping.h"
+#include "controllers/mabel_hopping/hopping.h"
 #include "tests/controllers/hopping_example.h"
 
 namespace plumbline::controllers {

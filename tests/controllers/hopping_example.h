@@ -2,7 +2,7 @@
 // sections Sensors and Transmission); gains and limits are round numbers to calculate with, not a robot's.
 #pragma once
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 
 namespace plumbline::controllers {
 

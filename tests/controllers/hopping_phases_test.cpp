@@ -1,4 +1,4 @@
-#include "controllers/hopping_phases.h"
+#include "controllers/mabel_hopping/hopping_phases.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "controllers/hopping.h"
+#include "controllers/mabel_hopping/hopping.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "controllers/cascade_pd.h"
-#include "controllers/hopping.h"
+#include "controllers/blocks/cascade_pd.h"
+#include "controllers/mabel_hopping/hopping.h"
 #include "tests/controllers/hopping_example.h"
 
 namespace {

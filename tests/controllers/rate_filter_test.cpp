@@ -1,4 +1,4 @@
-#include "controllers/rate_filter.h"
+#include "controllers/blocks/rate_filter.h"
 
 #include <gtest/gtest.h>
 

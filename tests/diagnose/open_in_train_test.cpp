@@ -35,8 +35,7 @@ TEST(OpenInTrain, TheHeldOutMotionGivesTheValue) {
   EXPECT_NEAR(finding.parameters.front().value, 5e-9, 5e-10);
   EXPECT_LT(found.ladder.back().held_out(), 1.1);
   EXPECT_GT(found.ladder.front().held_out(), 1.3);
-  EXPECT_THAT(finding_sentences(finding, found.verdict),
-              testing::HasSubstr("what the held-out ones ask for"));
+  EXPECT_THAT(finding_sentences(finding, found), testing::HasSubstr("what the held-out ones ask for"));
 }
 
 }  // namespace

@@ -37,6 +37,41 @@ TEST(Summary, NamesSeveralEffects) {
   EXPECT_THAT(text, HasSubstr("Missing: coulomb at drive, viscous at drive and lugre at drive."));
 }
 
+TEST(Summary, NothingIsMissingSaysWhichNumbersMoved) {
+  Diagnosis diagnosis = found({}, Verdict::nothing_missing, 78.0, 1.02);
+  EXPECT_THAT(summary(diagnosis), HasSubstr("Nothing is missing: the model predicts"));
+  Stage& stage = diagnosis.final_stage;
+  for (const char* label :
+       {"added_mass@arm:mass", "torque_constant_error@drive:scale", "viscous@drive:damping"}) {
+    FreeParameter parameter;
+    parameter.label = label;
+    parameter.deviation = 0.1;
+    stage.parameters.push_back(parameter);
+  }
+  stage.estimate.theta = Eigen::Vector3d(0.2, -0.22, 0.01);
+  const std::string text = summary(diagnosis);
+  EXPECT_THAT(text,
+              HasSubstr("torque_constant_error@drive:scale by -2.2, added_mass@arm:mass by +2.0 deviations"));
+  EXPECT_THAT(text, Not(HasSubstr("viscous")));  // a tenth of a deviation is what any fit does
+  EXPECT_THAT(text, HasSubstr("to 1.02 times what the sensors alone would leave; as given, to 78.00"));
+}
+
+TEST(Summary, SaysTheErrorOnTrialsThatNeitherFitNorChoose) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 12.5, 1.01);
+  EXPECT_THAT(summary(diagnosis), Not(HasSubstr("role test")));
+  diagnosis.test_before = 11.0;
+  diagnosis.test_after = 1.03;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("goes from 11.00 to 1.03 times the floor"));
+}
+
+TEST(Summary, APartAndTheWholeSayOneNumber) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::unexplained, 12.5, 1.90);
+  diagnosis.accepted.front().held_out_after = 1.03;  // on the windows on which it was tried
+  EXPECT_THAT(
+      finding_sentences(diagnosis.accepted.front(), diagnosis),
+      HasSubstr("falls from 12.50 to 1.90 times the floor (1.03 on the windows on which it was tried)"));
+}
+
 TEST(Summary, SaysWhichWindowsEndEarly) {
   Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 12.5, 1.01);
   diagnosis.windows = 14;

@@ -54,11 +54,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"no_data", false, "data: data.csv\n", "", {"no \"data\""}},
         BadInput{"no_time", false, "time: {column: t, unit: s}\n", "", {"no \"time\""}},
         BadInput{"no_role", false, "role: train\n", "", {"no \"role\""}},
-        BadInput{"other_role",
-                 false,
-                 "role: train",
-                 "role: held_out",
-                 {"trial.yaml:4: role: found \"held_out\"", "train or held-out", "did you mean held-out?"}},
+        BadInput{
+            "other_role",
+            false,
+            "role: train",
+            "role: held_out",
+            {"trial.yaml:4: role: found \"held_out\"", "train, held-out or test", "did you mean held-out?"}},
         BadInput{"cut_off", false, "{column: t, unit: s}", "{column: t, unit", {"no YAML"}},
         BadInput{"no_such_data", false, "data.csv", "date.csv", {"date.csv", "nothing at this path"}},
         BadInput{

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadExperimentInput{"version", "experiment/1", "trial/1", {":1: plumbline", "experiment/1"}},
         BadExperimentInput{"unknown_key", "locked:", "lokced:", {":7: lokced", "did you mean locked?"}},
-        BadExperimentInput{"role", "held-out", "test", {":3: role", "\"test\"", "train or held-out"}},
+        BadExperimentInput{"role", "held-out", "other", {":3: role", "\"other\"", "train, held-out or test"}},
         BadExperimentInput{
             "duration_unit", "2, unit: s", "2, unit: m", {":4: duration.unit", "\"m\"", "\"s\""}},
         BadExperimentInput{"duration_zero", "2, unit: s", "0, unit: s", {":4: duration", "above zero"}},

@@ -61,6 +61,18 @@ TEST_F(Roles, ACopyWithAShiftedTimeOrWithoutAColumnIsRefused) {
   EXPECT_NE(input_error([&] { check_roles({train, copy}); }), "");
 }
 
+TEST_F(Roles, WhatWasFittedOrHasChosenCannotTest) {
+  const Trial test = trial("t", "test", "data.csv", good_csv());
+  EXPECT_EQ(test.role, Role::test);
+  check_roles({test, trial("a", "train", "data.csv", other_csv())});
+  const std::string message = input_error([&] {
+    check_roles({test, trial("b", "held-out", "copy.csv", good_csv())});
+  });
+  EXPECT_NE(message.find("expected other data; what was fitted or has chosen cannot test"), std::string::npos)
+      << message;
+  EXPECT_NE(input_error([&] { check_roles({trial("c", "train", "copy.csv", good_csv()), test}); }), "");
+}
+
 TEST_F(Roles, TheSameInputOnAnotherMotionIsAnotherExperiment) {
   const Trial train = trial("a", "train", "data.csv", good_csv());
   Trial again = trial("b", "held-out", "data.csv", good_csv());

@@ -48,6 +48,20 @@ void print_phases(const Comparison& comparison) {
   print_table({"trial", "channel", "phases by", "rms/floor"}, rows);
 }
 
+/// What is in none of the errors.
+void print_lost(const std::vector<validation::LostWindow>& lost) {
+  constexpr std::size_t kShown = 5;
+  if (lost.empty()) {
+    return;
+  }
+  fmt::print("\nLeft out, because the model cannot be integrated there ({} windows):\n\n", lost.size());
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < std::min(kShown, lost.size()); ++i) {
+    rows.push_back({lost[i].trial, fmt::format("{:.2f} to {:.2f} s", lost[i].from, lost[i].to), lost[i].reason});
+  }
+  print_table({"trial", "window", "because"}, rows);
+}
+
 void print(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows;
   for (const ChannelError& c : comparison.channels) {
@@ -65,9 +79,13 @@ void print(const Comparison& comparison) {
   }
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
   print_phases(comparison);
+  print_lost(comparison.lost);
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
       comparison.scores.train, comparison.scores.held_out);
+  if (comparison.scores.test > 0.0) {
+    fmt::print("On the trials of role test, which neither fit nor choose: {:.3f}\n", comparison.scores.test);
+  }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
     return;
   }
   fmt::print(
-      "\nUnexplained force (at motors recorded minus needed, below 40 Hz; of plates measured minus predicted,"
+      "\nUnexplained force (at motors recorded minus needed, low-passed; of plates measured minus predicted,"
       "\non the ground):\n\n");
   std::vector<std::vector<std::string>> rows;
   for (const UnexplainedForce& f : forces) {
@@ -49,10 +49,12 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
         shares += fmt::format("{}{} {:.0f} %  ", d.variable, d.of_size ? " (size)" : "", 100.0 * d.share);
       }
     }
-    rows.push_back({f.trial, f.at, fmt::format("{:.3g} {}", f.rms, f.unit),
-                    fmt::format("{:.1f} %", 100.0 * f.relative), f.words, shares});
+    rows.push_back({f.trial, f.at, f.below > 0.0 ? fmt::format("{:.3g} Hz", f.below) : "-",
+                    fmt::format("{:.3g} {}", f.rms, f.unit), fmt::format("{:.1f} %", 100.0 * f.relative),
+                    f.words, shares});
   }
-  print_table({"trial", "at", "rms", "of the force", "it", "share of its variance that follows"}, rows);
+  print_table({"trial", "at", "below", "rms", "of the force", "it", "share of its variance that follows"},
+              rows);
 }
 
 /// Those that are the same force, or those that are not.
@@ -89,7 +91,7 @@ void print_verdict(const Diagnosis& diagnosis) {
     fmt::print("{}\n", verdict);
   }
   for (const Finding& finding : diagnosis.accepted) {
-    fmt::print("{}\n", validation::finding_sentences(finding, diagnosis.verdict));
+    fmt::print("{}\n", validation::finding_sentences(finding, diagnosis));
     fmt::print("  {}\n", finding.equation);
     for (const ParameterValue& p : finding.parameters) {
       const std::string how = p.chosen ? "(chosen)" : fmt::format("+- {:.2g} {}", p.deviation, p.unit);

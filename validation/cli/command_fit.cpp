@@ -48,7 +48,10 @@ nlohmann::json to_json(const FittedParameter& parameter) {
 
 /// A score of trials that are not there is null.
 nlohmann::json to_json(const validation::Scores& scores, const validation::Data& data) {
-  nlohmann::json json{{"train", scores.train}, {"held_out", nullptr}};
+  nlohmann::json json{{"train", scores.train}, {"held_out", nullptr}, {"test", nullptr}};
+  if (scores.test > 0.0) {
+    json["test"] = scores.test;
+  }
   if (data.has(validation::Role::held_out)) {
     json["held_out"] = scores.held_out;
   }
@@ -132,6 +135,9 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
     fmt::print("; held-out {:.3f} before, {:.3f} after\n", fit.before.held_out, fit.after.held_out);
   } else {
     fmt::print("; no held-out trial\n");
+  }
+  if (fit.after.test > 0.0) {
+    fmt::print("On the trials of role test: {:.3f} before, {:.3f} after\n", fit.before.test, fit.after.test);
   }
   if (fit.after.train > options.fit.explained) {
     fmt::print(

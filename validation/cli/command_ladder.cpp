@@ -68,6 +68,7 @@ nlohmann::json to_json(const std::vector<Rung>& rungs, const std::vector<Referen
     nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
     model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
     model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
+    model["test"] = rung.scores.test > 0.0 ? nlohmann::json(rung.scores.test) : nlohmann::json();
     for (const WholeTrial& trial : rung.trials) {
       model["trials"].push_back(validation::to_json(trial));
     }
@@ -220,6 +221,14 @@ void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& pu
   }
   for (const std::vector<std::string>& row : published_rows(published, columns)) {
     rows.push_back(row);
+  }
+  if (rungs.front().scores.test > 0.0) {
+    constexpr std::ptrdiff_t kBehindHeldOut = 3;
+    head.insert(head.begin() + kBehindHeldOut, "test");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::string text = i < rungs.size() ? score_text(true, rungs[i].scores.test) : "";
+      rows[i].insert(rows[i].begin() + kBehindHeldOut, text);
+    }
   }
   fmt::print("train, held-out: error in windows from their own start, in units of the floor.\n");
   if (!columns.empty()) {

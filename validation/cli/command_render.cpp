@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "controllers/hopping_phases.h"
+#include "controllers/mabel_hopping/hopping_phases.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/render/film.h"

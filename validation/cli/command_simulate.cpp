@@ -5,12 +5,10 @@
 #include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
-#include "validation/cli/hop_report.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/hopping/hop_run.h"
-#include "validation/hopping/hopping_file.h"
+#include "validation/cli/simulate_scenario.h"
 #include "validation/inverse_model/inverse_model.h"
 #include "validation/replay/replay.h"
 
@@ -20,9 +18,9 @@ namespace {
 using validation::Replay;
 
 struct Options {
-  std::string trial, experiment, controller, model, data_folder, out, json;
+  std::string trial, experiment, model, data_folder, out, json;
   validation::ReplayOptions replay;
-  validation::HopOptions hop;
+  ScenarioOptions scenario;
 };
 
 /// What is said of every simulation.
@@ -38,12 +36,6 @@ Course course_of(const Replay& replay, const Options& options) {
   return {replay.run.summary,      options.replay.integrator.relative_tolerance,
           replay.duration,         replay.seconds,
           replay.run.energy_error, replay.run.energy_exchanged};
-}
-
-Course course_of(const validation::HopRun& run, const Options& options) {
-  return {run.summary,      options.hop.integrator.relative_tolerance,
-          run.time,         run.seconds,
-          run.energy_error, run.energy_exchanged};
 }
 
 Replay replay_trial(const Options& options, std::string& model_file) {
@@ -91,16 +83,6 @@ nlohmann::json to_json(const Replay& replay, const Options& options, const std::
     json["channels"].push_back(
         {{"name", error.sensor}, {"unit", error.unit}, {"rms", error.rms}, {"floor", error.floor}});
   }
-  return json;
-}
-
-nlohmann::json to_json(const validation::HopRun& run, const Options& options) {
-  nlohmann::json json = to_json(course_of(run, options));
-  json["model"] = options.model;
-  json["controller"] = options.controller;
-  json["hops"] = hops_json(run);
-  json["fell"] = run.fell;
-  json["end"] = run.end;
   return json;
 }
 
@@ -153,7 +135,7 @@ std::string chosen(const Options& options) {
   };
   add(options.trial, "TRIAL");
   add(options.experiment, "--experiment");
-  add(options.controller, "--controller");
+  add(options.scenario.scenario, "--scenario");
   return names;
 }
 
@@ -161,29 +143,14 @@ void check_choice(const Options& options) {
   const std::string names = chosen(options);
   if (names.empty() || names.find(' ') != std::string::npos) {
     throw InputError({"", 0, "simulate"}, names.empty() ? "nothing" : names,
-                     "one of TRIAL, --experiment and --controller");
+                     "one of TRIAL, --experiment and --scenario");
   }
-  if (options.trial.empty() && options.model.empty()) {
+  if (!options.experiment.empty() && options.model.empty()) {
     throw InputError({"", 0, names}, "no --model", "the model that is simulated");
   }
   if (options.trial.empty() && options.replay.closed_loop) {
     throw InputError({"", 0, "--closed-loop"}, names, "a trial that names its controller");
   }
-}
-
-void run_hops(Options options) {
-  validation::HopOptions& hop = options.hop;
-  hop.energy = true;
-  hop.trace = !options.out.empty();
-  hop.stop = &stop_flag();
-  hop.integrator.validate();
-  const model::Model model = model::read_model(options.model, model::known_effects());
-  const validation::HopRun run =
-      validation::hop(model, validation::read_hopping(options.controller), validation::HopStart(), hop);
-  write_files(to_json(run, options), run.trace, options);
-  print(course_of(run, options));
-  fmt::print("\n");
-  print_hops(run);
 }
 
 void run_replay(Options options) {
@@ -200,8 +167,16 @@ void run(const Options& options) {
   check_choice(options);
   check_trace_file(options.out);
   check_writable(options.json);
-  check_not_an_input(options.out, {options.model, options.experiment, options.controller});
-  options.controller.empty() ? run_replay(options) : run_hops(options);
+  check_not_an_input(options.out, {options.model, options.experiment});
+  if (options.scenario.scenario.empty()) {
+    run_replay(options);
+  } else {
+    ScenarioOptions scenario = options.scenario;
+    scenario.model = options.model;
+    scenario.out = options.out;
+    scenario.json = options.json;
+    simulate_scenario(scenario);
+  }
   if (!options.out.empty()) {
     fmt::print("\nTrace: {}\n", options.out);
   }
@@ -216,9 +191,9 @@ void add_method(CLI::App& command, Options& options) {
       .add_option_function<std::string>(
           "--method",
           [&options, methods](const std::string& name) {
-            options.replay.integrator.method = options.hop.integrator.method = methods.at(name);
+            options.scenario.method = options.replay.integrator.method = methods.at(name);
           },
-          "explicit_rk, or for stiff models rosenbrock (as it is with --controller), implicit_rk or bdf")
+          "explicit_rk, or for stiff models rosenbrock (as it is with --scenario), implicit_rk or bdf")
       ->check(CLI::IsMember(methods))
       ->type_name("METHOD");
   command
@@ -226,11 +201,52 @@ void add_method(CLI::App& command, Options& options) {
           "--tolerance",
           [&options](double tolerance) {
             options.replay.integrator.set_tolerance(tolerance);
-            options.hop.integrator.set_tolerance(tolerance);
+            options.scenario.tolerance = tolerance;
           },
-          "relative tolerance of the integrator: 1e-8, with --controller 1e-5")
+          "relative tolerance of the integrator: 1e-8, with --scenario 1e-5")
       ->check(between(1e-13, 1e-1))
       ->type_name("NUMBER");
+}
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  command
+      .add_option("--scenario", options.scenario,
+                  "in place of a trial: a robot under its controller, as this file states it")
+      ->type_name("FILE");
+  const auto needs_scenario = [](CLI::Option* option) { return option->needs("--scenario"); };
+  needs_scenario(command.add_option("--controller", options.controller,
+                                    "with --scenario: another controller's file than the scenario names"))
+      ->type_name("FILE");
+  needs_scenario(
+      command.add_option("--set", options.set, "with --scenario: a constant of the controller, SI"))
+      ->type_name("CONSTANT=VALUE");
+  needs_scenario(command.add_option("--start", options.start,
+                                    "with --scenario: another start, SI: clearance=0.06, "
+                                    "velocity:travel=-0.45, position:torso=0.1"))
+      ->type_name("WHAT=VALUE");
+  needs_scenario(
+      command.add_option("--seconds", options.seconds, "with --scenario: end after so many seconds"))
+      ->check(CLI::PositiveNumber);
+  needs_scenario(
+      command.add_option("--platform", options.platforms,
+                         "with --scenario: a step in the ground, in place of the scenario's terrain: "
+                         "from and to along the way, height, m (again for more)"))
+      ->type_name("FROM TO HEIGHT");
+  needs_scenario(command.add_option("--seed", options.seed, "with --scenario: seed of the sensors' noise"))
+      ->capture_default_str();
+  needs_scenario(
+      command.add_flag("--energy", options.energy,
+                       "with --scenario: integrate work and dissipation too, and say whether the energy "
+                       "adds up; the steps are then a little different"));
+  CLI::Option* record = command.add_option(
+      "--record", options.record,
+      "with --scenario: write the run to the folder DIR as a trial, as the robot's sensors recorded it");
+  needs_scenario(record)->type_name("DIR");
+  command.add_option("--role", options.role, "of that trial: train or held-out")
+      ->needs(record)
+      ->transform(CLI::CheckedTransformer(std::map<std::string, validation::Role>{
+          {"train", validation::Role::train}, {"held-out", validation::Role::held_out}}))
+      ->type_name("ROLE");
 }
 
 }  // namespace
@@ -238,20 +254,13 @@ void add_method(CLI::App& command, Options& options) {
 void add_simulate(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
   options->replay.integrator.set_tolerance(1e-8);
-  CLI::App* command =
-      app.add_subcommand("simulate", "Run a trial, an experiment or a controller on a model, in one piece");
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Run a trial, an experiment or a scenario (a robot under its controller), in one piece");
   command->add_option("trial", options->trial, "trial folder (or its trial.yaml)")->type_name("TRIAL");
   command
       ->add_option("--experiment", options->experiment, "experiment file in place of a trial; needs --model")
       ->type_name("FILE");
-  command
-      ->add_option("--controller", options->controller,
-                   "in place of a trial let the robot hop under this controller; needs --model")
-      ->type_name("FILE");
-  command->add_option("--hops", options->hop.hops, "with --controller: end after so many hops")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->needs("--controller");
+  add_scenario_options(*command, options->scenario);
   command->add_option("--model", options->model, "model file in place of the one the trial names")
       ->type_name("FILE");
   command->add_option("--data", options->data_folder, "folder with the trial's data files")->type_name("DIR");
@@ -262,8 +271,7 @@ void add_simulate(CLI::App& app, Outcome& /*outcome*/) {
   add_json_option(*command, options->json);
   command->footer(
       "Example:\n  plumbline simulate demo/siso_mLA --model robots/mabel/leg_bench.yaml -o trace.csv\n"
-      "  plumbline simulate --model robots/mabel/mabel.yaml --controller robots/mabel/hopping_boom.yaml "
-      "--hops 10");
+      "  plumbline simulate --scenario robots/mabel/scenarios/hopping_boom.yaml -o hops.csv");
   command->callback([options] { run(*options); });
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "controllers/cascade_pd.h"
+#include "controllers/blocks/cascade_pd.h"
 #include "simulator/model/plant.h"
 #include "validation/trial/trial.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/model/kinds.h"
 
@@ -52,6 +53,11 @@ std::vector<ChannelError> channel_errors(const model::Model& model, const Data& 
   return errors;
 }
 
+void sort_worst_first(std::vector<WindowError>& errors) {
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const WindowError& a, const WindowError& b) { return a.ratio > b.ratio; });
+}
+
 std::vector<WindowError> window_errors(const Data& data, const Estimate& estimate) {
   std::vector<WindowError> errors;
   for (std::size_t w = 0; w < data.windows.size(); ++w) {
@@ -64,22 +70,48 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
     errors.push_back({trial.name, trial.time[window.first], trial.time[window.first + window.count - 1],
                       std::sqrt(square.mean()), trial.measured[static_cast<std::size_t>(worst)].sensor});
   }
-  std::stable_sort(errors.begin(), errors.end(),
-                   [](const WindowError& a, const WindowError& b) { return a.ratio > b.ratio; });
+  sort_worst_first(errors);
   return errors;
 }
 
 }  // namespace
 
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}};
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}};
 }
 
-Comparison compare(const model::Model& model, const Data& data) {
-  PredictorPool pool(model, data);
+namespace {
+
+Comparison compare_trials(const model::Model& model, const Data& data) {
+  std::vector<LostWindow> lost;
+  const Data kept = without_lost(model, data, lost);
+  PredictorPool pool(model, kept);
   const Estimate estimate = estimate_states(pool);
-  Comparison comparison = compare(model, data, estimate);
+  Comparison comparison = compare(model, kept, estimate);
   comparison.phases = phase_errors(pool, {}, estimate);
+  comparison.lost = std::move(lost);
+  return comparison;
+}
+
+template <typename T>
+void append(const std::vector<T>& more, std::vector<T>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Comparison compare(const model::Model& model, const Data& data) {
+  if (data.tests.empty()) {
+    return compare_trials(model, data);
+  }
+  Comparison comparison = data.trials.empty() ? Comparison() : compare_trials(model, data);
+  const Comparison tests = compare_trials(model, data.of_tests());
+  append(tests.channels, comparison.channels);
+  append(tests.windows, comparison.windows);
+  append(tests.phases, comparison.phases);
+  append(tests.lost, comparison.lost);
+  sort_worst_first(comparison.windows);
+  comparison.scores.test = tests.scores.test;
   return comparison;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/compare/phase_errors.h"
+#include "validation/predict/lost_windows.h"
 
 namespace plumbline::validation {
 
@@ -28,9 +29,11 @@ struct Comparison {
   std::vector<WindowError> windows;  ///< worst first
   Scores scores;
   std::vector<PhaseError> phases;  ///< of compare(model, data) only
+  std::vector<LostWindow> lost;    ///< of compare(model, data) only: not in any error
 };
 
-/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted).
+/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted), those
+/// of the tests too. Windows that cannot be integrated are left out and named.
 Comparison compare(const model::Model& model, const Data& data);
 
 /// The same from an estimate that is at hand.

@@ -17,6 +17,7 @@ void accept(const Tried& tried, const Choice& choice, const Data& data, Diagnosi
               correlation(tried.stage, next, after(rival), data), finding);
   }
   set_errors(tried.stage.estimate, refit.estimate, finding);
+  finding.rung = static_cast<int>(diagnosis.ladder.size());
   std::vector<Finding> accepted = diagnosis.accepted;
   accepted.push_back(finding);
   set_values(next, data, accepted);
@@ -40,14 +41,34 @@ void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choic
     add_pair_rivals(pairs[i], pair, correlation(tried.stage, both, after(pairs[i].refit), data), first,
                     second);
   }
+  drop_accepted(diagnosis);
+  first.rung = static_cast<int>(diagnosis.ladder.size());
+  second.rung = first.rung + 1;
   std::vector<Finding> accepted{first, second};
   set_values(both, data, accepted);
-  drop_accepted(diagnosis);
   const double length = diagnosis.ladder.back().length;
   diagnosis.ladder.push_back({"+ " + pair.first.label(), single, length});
   diagnosis.final_stage = both;
   diagnosis.ladder.push_back({"+ " + pair.second.label(), both, length});
   diagnosis.accepted = accepted;
+}
+
+void accept_group(const Tried& tried, const Group& group, const Data& data, Diagnosis& diagnosis) {
+  std::vector<Finding> accepted = diagnosis.accepted;
+  for (std::size_t i = 0; i < group.candidates.size(); ++i) {
+    Finding finding = finding_of(group.candidates[i]);
+    finding.selected_share = group.share;
+    finding.rung = static_cast<int>(diagnosis.ladder.size());
+    finding.together_with = group.candidates[i == 0 ? 1 : 0].label();
+    set_errors(tried.stage.estimate, group.stage.estimate, finding);
+    accepted.push_back(std::move(finding));
+  }
+  set_values(group.stage, data, accepted);
+  diagnosis.final_stage = group.stage;
+  diagnosis.accepted = accepted;
+  diagnosis.ladder.push_back(
+      {"+ friction at " + std::to_string(group.candidates.size()) + " places", group.stage,
+       diagnosis.ladder.back().length});
 }
 
 void drop_accepted(Diagnosis& diagnosis) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "validation/diagnose/choose.h"
+#include "validation/diagnose/friction_everywhere.h"
 #include "validation/diagnose/look_ahead.h"
 
 namespace plumbline::validation {
@@ -14,6 +15,9 @@ void accept(const Tried& tried, const Choice& choice, const Data& data, Diagnosi
 /// The chosen pair, in place of everything that was accepted before. `single` is its first effect alone.
 void accept_pair(const Tried& tried, const std::vector<Pair>& pairs, const Choice& choice,
                  const Stage& single, const Data& data, Diagnosis& diagnosis);
+
+/// All effects of a group, with one rung.
+void accept_group(const Tried& tried, const Group& group, const Data& data, Diagnosis& diagnosis);
 
 /// Back to the model that nothing was added to.
 void drop_accepted(Diagnosis& diagnosis);

@@ -1,5 +1,6 @@
 #include "validation/diagnose/by_segments.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "validation/diagnose/diagnoser.h"
@@ -27,13 +28,18 @@ class BySegments {
   }
 
   Followed run(const model::Model& model, Followed followed) {
-    if (!Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_)) {
-      diagnosis_ = {};
+    // The beginnings of windows are of use where these begin in flight.
+    const bool promising =
+        Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+    if (!promising && begin_in_flight()) {
+      diagnosis_ = restarted();
       followed = follow_beginnings(model, data_);
       Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
       if (!names_more(followed)) {
         return followed;
       }
+    } else if (!promising && !names_more(followed)) {
+      return followed;
     }
     for (bool is_new = true; !is_whole(followed);) {
       segments_ = {followed.data, diagnosis_.final_stage.estimate.x0, followed.length};
@@ -57,6 +63,18 @@ class BySegments {
   }
 
  private:
+  bool begin_in_flight() const {
+    return std::any_of(data_.trials.begin(), data_.trials.end(),
+                       [](const Trial& trial) { return !trial.switches.empty(); });
+  }
+
+  /// Nothing found yet, but what was left out stays so.
+  Diagnosis restarted() const {
+    Diagnosis anew;
+    anew.lost = diagnosis_.lost;
+    return anew;
+  }
+
   /// On these, with more own numbers open. Where they did not help on shorter ones something else is missing,
   /// and they are tried again on whole windows only, before it is looked for.
   void go_on(const Followed& followed, Diagnosis& diagnosis) {

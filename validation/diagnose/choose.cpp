@@ -4,7 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <string>
+#include <utility>
 
+#include "validation/diagnose/family.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/objection.h"
 #include "validation/diagnose/resample.h"
@@ -22,6 +25,15 @@ std::pair<int, int> complexity(const Refit& refit) {
     constants += refit.extended.model.effects[static_cast<std::size_t>(effect)].law->parameter_count();
   }
   return {refit.own, constants};
+}
+
+/// Single effects of one family at one place. That something of the family is there may be sure where the votes
+/// are split among its members, which are then each other's rivals.
+bool is_of_family(const Refit& one, const Refit& other) {
+  const auto effect = [](const Refit& refit) -> const model::EffectUse& {
+    return refit.extended.model.effects[static_cast<std::size_t>(refit.added.front())];
+  };
+  return one.added.size() == 1 && other.added.size() == 1 && are_of_one_family(effect(one), effect(other));
 }
 
 /// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them.
@@ -63,6 +75,41 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
     contenders.erase(std::remove_if(contenders.begin(), contenders.end(),
                                     [&](std::size_t i) { return !choice.objections[i].empty(); }),
                      contenders.end());
+  }
+  return contenders;
+}
+
+/// Does the refit add a law that the stage has at the same place already as an uncertain number of the model? It
+/// would then be off by more than three of the deviations within which it is free.
+bool repeats_number(const Stage& stage, const Refit& refit) {
+  if (refit.added.size() != 1) {
+    return false;
+  }
+  const std::string label =
+      refit.extended.model.effects[static_cast<std::size_t>(refit.added.front())].label();
+  return std::any_of(stage.parameters.begin(), stage.parameters.end(), [&](const FreeParameter& one) {
+    return std::isfinite(one.deviation) &&
+           stage.model.effects[static_cast<std::size_t>(one.id.effect)].label() == label;
+  });
+}
+
+/// Far above the floor a number beyond all that is stated of it is the first to make up for what is missing: it
+/// gives way to an effect that does nearly as well.
+std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std::vector<Refit>& refits,
+                                                  std::vector<std::size_t> contenders, const Data& data,
+                                                  const DiagnoseOptions& options, Choice& choice) {
+  constexpr double kNearly = 1.25;
+  while (!contenders.empty() && repeats_number(stage, refits[contenders.front()]) &&
+         !is_below(options.far, refits[contenders.front()].estimate, data)) {
+    const auto other = std::find_if(contenders.begin(), contenders.end(), [&](std::size_t i) {
+      return !repeats_number(stage, refits[i]);
+    });
+    if (other == contenders.end() ||
+        together(refits[*other]) > kNearly * together(refits[contenders.front()])) {
+      break;
+    }
+    choice.objections[contenders.front()] = "beyond all that is stated of it; an effect does nearly as well";
+    contenders.erase(contenders.begin());
   }
   return contenders;
 }
@@ -130,13 +177,17 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   }
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
-  const std::vector<std::size_t> contenders = without_flawed(stage, refits, data, options, choice);
+  const std::vector<std::size_t> contenders = without_repeated_numbers(
+      stage, refits, without_flawed(stage, refits, data, options, choice), data, options, choice);
   if (contenders.empty()) {
     return choice;
   }
   std::vector<std::size_t> near = near_best(refits, contenders, options);
-  for (const std::size_t i : near) {
-    choice.share += choice.shares[i];
+  for (const std::size_t i : contenders) {
+    const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
+    if (is_near || is_of_family(refits[i], refits[contenders.front()])) {
+      choice.share += choice.shares[i];
+    }
   }
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();

@@ -13,7 +13,7 @@ constexpr double kFair = 0.05;
 
 struct Choice {
   int named = -1;                       ///< index of the refit; -1: something speaks against each of the best
-  double share = 0.0;                   ///< of the resamples that choose it or one that is about as good
+  double share = 0.0;                   ///< of the resamples that choose it, its family there, or one as good
   std::vector<std::size_t> rivals;      ///< of the named one
   std::vector<double> shares;           ///< by refit: share of the resamples in which it is the best
   std::vector<std::string> objections;  ///< by refit: why it is not named; empty when it could be

@@ -10,8 +10,10 @@
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/same_force.h"
+#include "validation/diagnose/zero_errors.h"
 #include "validation/predict/initial_states.h"
 #include "validation/predict/kept_results.h"
+#include "validation/predict/lost_windows.h"
 #include "validation/predict/reach.h"
 
 namespace plumbline::validation {
@@ -55,14 +57,18 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
   }
   const bool is_answer =
       !diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all);
+  const bool is_held = is_answer || (!diagnosis.accepted.empty() && !all.has_segments());
   if (is_answer) {
     settle_values(all, progress, diagnosis);
+  }
+  if (is_held) {
     hold_values(all, progress, diagnosis);
   }
-  if (take_open_values(all, diagnosis) || !is_answer) {
+  if (take_open_values(all, diagnosis) || !is_held) {
     diagnosis.precision = {};
     set_values(diagnosis.final_stage, all, diagnosis.accepted);
   }
+  compare_rungs(data, progress, diagnosis);
   conclude(all, options, diagnosis);
   // What could not be followed has not been explained.
   if (diagnosis.verdict == Verdict::nothing_missing && diagnosis.cut_windows > most_lost(diagnosis.windows)) {
@@ -90,18 +96,22 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
-  Data some = data.thinned(options.windows);
-  if (!some.kept) {
-    some.kept = std::make_shared<KeptResults>();  // some work is asked for in more than one place
+  Data kept = without_lost(model, data, diagnosis.lost);
+  if (!kept.kept) {
+    kept.kept = std::make_shared<KeptResults>();  // some work is asked for in more than one place
   }
+  const Data some = kept.thinned(options.windows);
   try {
-    const Followed tried = diagnose_windows(model, catalogue, some, options, progress, diagnosis);
-    finish(data, tried, some, options, progress, diagnosis);
+    const Followed tried =
+        diagnose_windows(with_zero_errors(model, kept), catalogue, some, options, progress, diagnosis);
+    finish(kept, tried, some, options, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
+    diagnosis.test_before = test_error(model, data);
+    diagnosis.test_after = test_error(fitted_model(diagnosis.final_stage), data);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      conclude(data, options, diagnosis);
+      conclude(kept, options, diagnosis);
     }
   }
   return diagnosis;

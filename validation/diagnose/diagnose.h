@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "validation/diagnose/screen.h"
 #include "validation/predict/deviations.h"
+#include "validation/predict/lost_windows.h"
 
 namespace plumbline::validation {
 
@@ -22,6 +24,9 @@ struct DiagnoseOptions {
   double nothing = 1.1;          ///< error below which nothing is missing where nothing was named
   double finished = 1.2;         ///< error below which what was named is an answer
   double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
+  double far = 3.0;              ///< error from which more is missing than an effect
+  double consistent_far = 1.0;   ///< the same disagreement there: the held-out motion must not ask for none
+  double hopeless = 20.0;        ///< error after several effects above which no pair is looked for
   double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
   std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;
@@ -47,9 +52,9 @@ struct Rival {
   bool same = false;         ///< on this model one force under two names: no experiment tells them apart
 };
 
-/// One accepted effect. Held-out errors are those that the train trials foretell with what they leave open of
-/// the values (validation/predict/foretell.h); the ladder has those at the best values for train as well.
+/// One accepted effect. Its errors are those of the ladder's rungs before and with it.
 struct Finding : Named {
+  int rung = -1;  ///< of the ladder, with which it came; -1: not of it any more
   std::vector<ParameterValue> parameters;
   std::vector<Rival> rivals;
   double held_out_before = 0.0, held_out_after = 0.0;
@@ -86,8 +91,11 @@ struct Rung {
   Stage stage;
   /// Of the windows on which its errors are, s: shorter ones are segments; infinite: whole windows.
   double length = std::numeric_limits<double>::infinity();
-  double train() const { return stage.estimate.scores.train; }
-  double held_out() const { return stage.estimate.scores.held_out; }
+  /// What `compare` gives of the rung's model, on all windows; of an answer whose rungs are all on whole ones.
+  std::optional<Scores> compared{};
+  const Scores& scores() const { return compared ? *compared : stage.estimate.scores; }
+  double train() const { return scores().train; }
+  double held_out() const { return scores().held_out; }
   double foretold() const { return stage.estimate.predicted.scores.held_out; }
 };
 
@@ -105,11 +113,15 @@ struct Diagnosis {
   int candidates = 0;              ///< hypotheses screened
   bool interrupted = false;
   std::size_t windows = 0;      ///< on which the last errors are
+  std::vector<LostWindow> lost;  ///< left out from the beginning: the model as given cannot be integrated there
   std::size_t cut_windows = 0;  ///< those of them that are not followed to their end (predict/reach.h)
   Stage final_stage;            ///< model with everything accepted, its parameters and estimate
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
   Precision precision;
+  /// Errors on the trials of role test, in floors, of the model as given and of the final one; 0 without such
+  /// trials. They are computed when all is decided.
+  double test_before = 0.0, test_after = 0.0;
   std::size_t bare_rungs = 1;  ///< how many rungs come before anything was added
   const Rung& bare() const { return ladder[bare_rungs - 1]; }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "validation/diagnose/accept.h"
@@ -109,6 +110,7 @@ void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
 
 void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
   Diagnosis anew;
+  anew.lost = std::move(diagnosis.lost);
   anew.ladder = ladder;
   anew.bare_rungs = ladder.size();
   anew.final_stage = ladder.back().stage;
@@ -116,7 +118,12 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 }
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
-  if (!explains_nearly_all(given, fitted)) {
+  constexpr double kWorse = 1.2;
+  if (judged(fitted.stage.estimate, data_) > kWorse * judged(given.stage.estimate, data_)) {
+    look(options_.most_effects, diagnosis);  // values that do not hold on the other motion are none of the robot
+    return;
+  }
+  if (!explains_much(given, fitted)) {
     look(options_.most_as_stated, diagnosis);
     if (!speaks_for_stated(diagnosis)) {
       restart({given, fitted}, diagnosis);
@@ -132,6 +139,7 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
   Tried first = std::move(first_);
   Diagnosis stated;
+  stated.lost = diagnosis.lost;
   restart({given}, stated);
   look(options_.most_as_stated, stated);
   if (speaks_for_stated(stated)) {
@@ -141,8 +149,8 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
 }
 
-bool Diagnoser::explains_nearly_all(const Rung& given, const Rung& fitted) const {
-  constexpr double kLeft = 0.05;
+bool Diagnoser::explains_much(const Rung& given, const Rung& fitted) const {
+  constexpr double kLeft = 0.5;
   const double before = judged(given.stage.estimate, data_);
   const double after = judged(fitted.stage.estimate, data_);
   return before > options_.finished && after * after - 1.0 < kLeft * (before * before - 1.0);
@@ -214,8 +222,19 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   const Choice choice = choose(tried.stage, tried.refits, data_, options_);
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
-  if (choice.named >= 0) {
+  const std::optional<Group> group =
+      diagnosis.accepted.empty() ? friction_everywhere(tried, data_, options_, progress_) : std::nullopt;
+  if (group) {
+    accept_group(tried, *group, data_, diagnosis);
+  } else if (choice.named >= 0) {
     accept(tried, choice, data_, diagnosis);
+  }
+  const bool is_named = group || choice.named >= 0;
+  if (is_named) {
+    progress_(fmt::format("so far {}: {:.2f} to {:.2f} floors", diagnosis.ladder.back().name,
+                          judged(diagnosis.ladder.front().stage.estimate, data_),
+                          judged(diagnosis.final_stage.estimate, data_)),
+              1.0);
   }
   diagnosis.leads.clear();
   for (const RankRow& row : rows) {
@@ -229,7 +248,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   if (round == 0) {
     first_ = std::move(tried);
   }
-  return choice.named >= 0;
+  return is_named;
 }
 
 }  // namespace plumbline::validation

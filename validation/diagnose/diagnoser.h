@@ -42,12 +42,12 @@ class Diagnoser {
   /// As a whole: an interruption must not leave parameters without their values.
   static void restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis);
   /// With the numbers as stated first, because an answer with them says more. But where other numbers alone
-  /// explain nearly everything, first with the numbers free. The stated ones then need no trial if an effect
+  /// explain much, first with the numbers free. The stated ones then need no trial if an effect
   /// is named beside which the data speak against them, or if no answer was found: it would have been one
   /// with free numbers, too.
   void look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis);
-  /// What is left above the floor with the numbers fitted is a small share of what was.
-  bool explains_nearly_all(const Rung& given, const Rung& fitted) const;
+  /// What is left above the floor with the numbers fitted is less than half of what was.
+  bool explains_much(const Rung& given, const Rung& fitted) const;
   double evidence(const Diagnosis& diagnosis) const;
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
   bool speaks_for_stated(const Diagnosis& diagnosis) const;

@@ -19,6 +19,13 @@ RankRow row_of(const Candidate& candidate) {
   return row;
 }
 
+/// Empty where nothing was tried.
+std::string why_not_refitted(int candidate, const std::vector<NotRefitted>& failed) {
+  const auto found = std::find_if(failed.begin(), failed.end(),
+                                  [&](const NotRefitted& one) { return one.candidate == candidate; });
+  return found == failed.end() ? "" : "could not be fitted: " + found->reason;
+}
+
 /// Structural values of which the law tries more than one: the side of a stop.
 std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
   std::vector<ParameterValue> values;
@@ -64,6 +71,7 @@ std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const 
       row.score = hypothesis.promised();
       row.held_out_after = std::sqrt(hypothesis.promised_held_out);
       row.train_after = std::sqrt(hypothesis.promised_train);
+      row.remark = why_not_refitted(hypothesis.candidate, tried.failed);
       rows.push_back(row);
     }
   }
@@ -122,9 +130,9 @@ void set_values(const Stage& stage, const Eigen::VectorXd& deviations, std::vect
 
 void set_errors(const Estimate& before, const Estimate& after, Finding& finding) {
   finding.train_before = before.scores.train;
-  finding.held_out_before = before.predicted.scores.held_out;
+  finding.held_out_before = before.scores.held_out;
   finding.train_after = after.scores.train;
-  finding.held_out_after = after.predicted.scores.held_out;
+  finding.held_out_after = after.scores.held_out;
 }
 
 void add_rival(const Candidate& rival, double correlation, Finding& finding) {

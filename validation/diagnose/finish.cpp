@@ -1,6 +1,7 @@
 #include "validation/diagnose/finish.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -39,7 +40,42 @@ bool is_nothing(const Stage& stage, std::size_t effect) {
   return use.law->is_null(values.data());
 }
 
+/// Each finding's errors are those of the rung before its own and of its own.
+void set_errors_of_rungs(Diagnosis& diagnosis) {
+  for (Finding& finding : diagnosis.accepted) {
+    const auto r = static_cast<std::size_t>(std::max(finding.rung, 0));
+    if (r == 0 || r >= diagnosis.ladder.size() ||
+        diagnosis.ladder[r].length != diagnosis.ladder[r - 1].length) {
+      continue;
+    }
+    finding.train_before = diagnosis.ladder[r - 1].train();
+    finding.held_out_before = diagnosis.ladder[r - 1].held_out();
+    finding.train_after = diagnosis.ladder[r].train();
+    finding.held_out_after = diagnosis.ladder[r].held_out();
+  }
+}
+
 }  // namespace
+
+void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+  const bool are_whole = std::all_of(diagnosis.ladder.begin(), diagnosis.ladder.end(),
+                                     [](const Rung& rung) { return std::isinf(rung.length); });
+  if (!are_whole) {
+    return;
+  }
+  for (Rung& rung : diagnosis.ladder) {
+    progress("all windows for " + rung.name, 0.98);
+    PredictorPool pool(fitted_model(rung.stage), all);
+    try {
+      rung.compared = estimate_states(pool).scores;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      rung.compared.reset();  // a window is lost with these values: the estimate's own error stands
+    }
+  }
+  set_errors_of_rungs(diagnosis);
+}
 
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
   const double length = diagnosis.ladder.back().length;
@@ -53,16 +89,7 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
                                        {12, 1e-5});  // what the data hardly tell moves last
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;
-  for (Finding& finding : diagnosis.accepted) {
-    for (std::size_t r = 1; r < diagnosis.ladder.size(); ++r) {
-      if (diagnosis.ladder[r].name == "+ " + finding.label()) {
-        finding.train_before = diagnosis.ladder[r - 1].train();
-        finding.held_out_before = diagnosis.ladder[r - 1].foretold();
-        finding.train_after = diagnosis.ladder[r].train();
-        finding.held_out_after = diagnosis.ladder[r].foretold();
-      }
-    }
-  }
+  set_errors_of_rungs(diagnosis);
 }
 
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,

@@ -20,6 +20,7 @@ struct Tried {
   std::vector<Candidate> candidates;
   std::vector<Hypothesis> hypotheses;
   std::vector<Refit> refits;  ///< best first
+  std::vector<NotRefitted> failed;
 };
 
 /// One round from `stage`: candidates of the catalogue that are not in `taken` ("law@place"), screened, the

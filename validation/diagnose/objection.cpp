@@ -74,15 +74,13 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
       .predicted.scores.square();
 }
 
-/// Where what is left is about the noise: is the error materially larger a tenth of a value's way from
-/// nothing than at the value, whatever the other parameters do? Above the floor this would be no evidence,
-/// for the law may stand for another one. Where the model cannot be integrated it is not known: no.
+/// Is the error materially larger a tenth of a value's way from nothing than at the value, whatever the other
+/// parameters do (profile likelihood)? That an effect is there and how strong it is are two questions: a
+/// strength that trades with a torque constant is open, the effect need not be. Where the model cannot be
+/// integrated it is not known: no.
 bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
                const DiagnoseOptions& options) {
   constexpr double kNear = 0.1;
-  if (!is_below(options.finished, refit.estimate, data)) {
-    return false;
-  }
   const effects::Scale scale = refit.extended.parameters[parameter].scale;
   const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
   const double nothing = to_search(scale, null);
@@ -183,10 +181,12 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   if (share < options.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
   }
+  // Far above the floor every strength is a compromise with what else is missing.
+  const bool is_far = !is_below(options.far, refit.estimate, data);
   return unless_unsteady([&]() -> std::string {
     for (const int effect : refit.added) {
       const double apart = disagreement(refit, effect, data);
-      if (apart > options.consistent) {
+      if (apart > (is_far ? options.consistent_far : options.consistent)) {
         return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
       }
     }

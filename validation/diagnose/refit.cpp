@@ -1,8 +1,10 @@
 #include "validation/diagnose/refit.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "validation/diagnose/first_of_each.h"
 #include "validation/diagnose/judged.h"
@@ -16,8 +18,19 @@ bool jumps(const model::EffectUse& use) {
   return law != nullptr && law->jumps(use.numbers().data()) > 0;
 }
 
-Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
-                const Data& data, int iterations) {
+/// How much work a refit is worth.
+struct Effort {
+  int iterations = 4;
+  bool by_parts = true;  ///< of laws that jump: also by way of the windows' beginnings
+};
+
+/// From what the hypothesis promises, or a share of the way there.
+Refit refit_from(double share, const Stage& stage, const Candidate& candidate, Hypothesis hypothesis,
+                 const Data& data, const Effort& effort) {
+  hypothesis.step *= share;
+  if (share < 1.0) {
+    hypothesis.x0 = hypothesis.x0.empty() ? hypothesis.x0 : stage.estimate.x0;
+  }
   Refit result;
   result.candidate = hypothesis.candidate;
   result.extended = extend(stage, candidate, hypothesis.start);
@@ -33,10 +46,41 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
           ? carried_states(fitted_model(stage), result.extended.model, data, stage.estimate.x0)
           : hypothesis.x0;
   // The way over the windows' beginnings is for the law that is new; what was there has gone it.
-  const bool by_parts = jumps(result.extended.model.effects.back());
-  result.estimate = gauss_newton(pool, result.extended.parameters, theta, x0, {iterations, 5e-3, by_parts});
+  const bool by_parts = effort.by_parts && jumps(result.extended.model.effects.back());
+  result.estimate =
+      gauss_newton(pool, result.extended.parameters, theta, x0, {effort.iterations, 5e-3, by_parts});
   result.extended.theta = result.estimate.theta;
   return result;
+}
+
+/// A straight line may promise values at which the model cannot be integrated, or from which the search ends
+/// above where it began: then from nearer to the start, and from the stage's own initial states. A law that
+/// changes nothing at its start ends no worse than without it.
+Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                const Data& data, const Effort& effort) {
+  constexpr double kWorse = 1.02;
+  constexpr double kNear = 0.1;
+  std::optional<Refit> best;
+  std::string reason;
+  for (const double share : {1.0, kNear}) {
+    try {
+      Refit one = refit_from(share, stage, candidate, hypothesis, data, effort);
+      if (!best || one.estimate.cost < best->estimate.cost) {
+        best = std::move(one);
+      }
+      if (!(best->estimate.scores.train > kWorse * stage.estimate.scores.train)) {
+        break;
+      }
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      reason = error.what();
+    }
+  }
+  if (!best) {
+    throw std::runtime_error(reason);
+  }
+  return *best;
 }
 
 void continue_refit(Refit& refit, const Data& data, int iterations) {
@@ -95,6 +139,44 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
   sort_by_error(refits);
 }
 
+/// An error of one of the robot's or a sensor's constants, not a force that is missing.
+bool is_of_constants(const effects::Law& law) {
+  return dynamic_cast<const effects::StructureLaw*>(&law) != nullptr ||
+         dynamic_cast<const effects::SensorLaw*>(&law) != nullptr ||
+         law.declaration().name == "torque_constant_error";
+}
+
+/// The first start of each candidate in the order of their promise, `most` of them. Where much is missing many
+/// constants promise the same compromise: they take no more than three places.
+std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& candidates,
+                                              const std::vector<Hypothesis>& hypotheses, int most) {
+  constexpr int kConstants = 3;
+  std::vector<const Hypothesis*> chosen;
+  std::set<int> seen;
+  int constants = 0;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (static_cast<int>(chosen.size()) >= most) {
+      break;
+    }
+    if (!seen.insert(hypothesis.candidate).second) {
+      continue;
+    }
+    const bool is_constant =
+        is_of_constants(*candidates[static_cast<std::size_t>(hypothesis.candidate)].law);
+    constants += is_constant ? 1 : 0;
+    if (!is_constant || constants <= kConstants) {
+      chosen.push_back(&hypothesis);
+    }
+  }
+  return chosen;
+}
+
+/// Parameters that a refit of the hypothesis would fit beside the stage's.
+int free_count(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage) {
+  return static_cast<int>(extend(stage, candidate, hypothesis.start).parameters.size() -
+                          stage.parameters.size());
+}
+
 /// Further starts of the two best candidates: a law with a threshold inside the motion has several minima,
 /// and above the floor the right one may not have been met.
 std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
@@ -113,6 +195,30 @@ std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
   return others;
 }
 
+/// Laws of fewer fitted parameters at the place of the best refit that were not refitted: it may contain one of
+/// them and owe it what it explains.
+std::vector<const Hypothesis*> simpler_than(const Refit& best, const std::vector<Refit>& refits,
+                                            const std::vector<Candidate>& candidates,
+                                            const std::vector<Hypothesis>& hypotheses, const Stage& stage) {
+  constexpr std::size_t kMost = 3;
+  const Candidate& named = candidates[static_cast<std::size_t>(best.candidate)];
+  std::vector<const Hypothesis*> simpler;
+  std::set<int> seen;
+  for (const Refit& refit : refits) {
+    seen.insert(refit.candidate);
+  }
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
+    const bool is_simpler = candidate.place == named.place && candidate.at == named.at &&
+                            candidate.law->state_count() <= named.law->state_count() &&
+                            free_count(candidate, hypothesis, stage) < best.own;
+    if (is_simpler && simpler.size() < kMost && seen.insert(hypothesis.candidate).second) {
+      simpler.push_back(&hypothesis);
+    }
+  }
+  return simpler;
+}
+
 /// Of several refits of one candidate only the first, which is the best.
 void keep_best_of_each(std::vector<Refit>& refits) {
   refits = first_of_each(std::move(refits), [](const Refit& one, const Refit& other) {
@@ -129,31 +235,28 @@ void sort_by_error(std::vector<Refit>& refits) {
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,
-                         const DiagnoseOptions& options, const Progress& progress) {
+                         const DiagnoseOptions& options, const Progress& progress,
+                         std::vector<NotRefitted>* failed) {
   // Segments are short enough for a straight line: fewer candidates need a refit.
   constexpr int kRefitsOnSegments = 5;
   const bool straight = data.has_segments();
   const double kept_promise = straight ? 1.2 : 2.5;
-  const int most = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
-  std::vector<const Hypothesis*> chosen;
-  std::map<int, int> starts_of;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    if (static_cast<int>(chosen.size()) >= most) {
-      break;
-    }
-    if (starts_of[hypothesis.candidate]++ == 0) {
-      chosen.push_back(&hypothesis);
-    }
-  }
+  const int most_refits = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
+  const std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
+  // What a law with corners promises decides whether its many minima are worth a search.
+  constexpr std::size_t kThorough = 3;
   std::vector<Refit> refits;
-  const auto add = [&](const Hypothesis& hypothesis, double done) {
+  const auto add = [&](const Hypothesis& hypothesis, double done, bool thorough = true) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
     progress("refitting " + candidate.label(), done);
     try {
-      refits.push_back(refit_one(stage, candidate, hypothesis, data, 4));
+      refits.push_back(refit_one(stage, candidate, hypothesis, data, {4, thorough}));
     } catch (const Stopped&) {
       throw;
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error& error) {
+      if (failed != nullptr) {
+        failed->push_back({hypothesis.candidate, error.what()});
+      }
       return;  // it cannot be integrated: no explanation of these trials
     }
     sort_by_error(refits);
@@ -166,7 +269,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     // best so far may itself be refused, and a promise made by a straight line says little.
     if (refits.size() < 2 || !at_floor(refits, data, options) ||
         chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
-      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()));
+      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), i < kThorough);
     }
   }
   finish(refits, candidates, data, options, progress);
@@ -176,6 +279,16 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
     keep_best_of_each(refits);
     finish(refits, candidates, data, options, progress);
+  }
+  if (!refits.empty()) {
+    const std::vector<const Hypothesis*> simpler =
+        simpler_than(refits.front(), refits, candidates, hypotheses, stage);
+    for (const Hypothesis* one : simpler) {
+      add(*one, 0.95);
+    }
+    if (!simpler.empty()) {
+      finish(refits, candidates, data, options, progress);
+    }
   }
   return refits;
 }
@@ -187,7 +300,7 @@ Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& se
   unmoved.theta = with_first.theta;
   Hypothesis both = promise.second;
   both.step = promise.step;
-  Refit result = refit_one({with_first.model, with_first.parameters, unmoved}, second, both, data, 8);
+  Refit result = refit_one({with_first.model, with_first.parameters, unmoved}, second, both, data, {8, true});
   const auto effect = static_cast<int>(result.extended.model.effects.size());
   result.added = {effect - 2, effect - 1};
   result.own = static_cast<int>(result.extended.parameters.size() - stage.parameters.size());

@@ -1,6 +1,7 @@
 // Nested refits of the best candidates.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "validation/diagnose/diagnose.h"
@@ -20,13 +21,22 @@ struct Refit {
   double square() const { return estimate.predicted.scores.square(); }
 };
 
+/// A candidate that could not be refitted, and why.
+struct NotRefitted {
+  int candidate = 0;
+  std::string reason;
+};
+
 /// Best first; what is equal stays in its order.
 void sort_by_error(std::vector<Refit>& refits);
 
-/// Refits the best hypotheses: a short refit of all, a full one of those that stay near the best.
+/// Refits the best hypotheses: a short refit of all, a full one of those that stay near the best, and beside
+/// the best one the simpler laws of its place, one of which it may contain. Those that fail are told to
+/// `failed`, if there is one.
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
                          const std::vector<Hypothesis>& hypotheses, const Data& data,
-                         const DiagnoseOptions& options, const Progress& progress);
+                         const DiagnoseOptions& options, const Progress& progress,
+                         std::vector<NotRefitted>* failed = nullptr);
 
 /// Two candidates at once, from what was promised of them together.
 Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& second,

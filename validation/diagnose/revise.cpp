@@ -62,6 +62,7 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
                               false});
   }
   set_errors(without.estimate, winner.refit.estimate, finding);
+  finding.rung = static_cast<int>(diagnosis.ladder.size());
   std::vector<Finding> accepted = diagnosis.accepted;
   accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(index));
   accepted.push_back(finding);

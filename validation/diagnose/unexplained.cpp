@@ -182,6 +182,7 @@ std::vector<UnexplainedForce> unexplained_forces(const Stage& stage, const Data&
     for (const NeededForce& force : inverse.motors) {
       const model::Motor* motor = fitted.find_motor(force.motor);
       all.push_back(analyse(force, trial, motor == nullptr || motor->angular));
+      all.back().below = inverse.cutoff;
     }
     add_plates(stage, data, pool, static_cast<int>(t), all);
   }

@@ -15,6 +15,7 @@ struct UnexplainedForce {
   Role role = Role::train;
   double rms = 0.0;                     ///< recorded minus needed (measured minus predicted) force
   double relative = 0.0;                ///< rms / rms of the recorded force
+  double below = 0.0;                   ///< Hz: of a motor's force what is below; 0: all of it (a plate's)
   std::vector<Dependence> dependences;  ///< strongest first
   std::string words;                    ///< the strongest dependence in words
 };

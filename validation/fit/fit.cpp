@@ -166,8 +166,8 @@ std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters,
 Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> parameters,
         const FitOptions& options, const Progress& progress) {
   if (!data.has(Role::train)) {
-    throw InputError({data.trials.front().file, 0, "role"}, "held-out",
-                     "at least one trial with role: train");
+    const Trial& other = data.trials.empty() ? data.tests.front() : data.trials.front();
+    throw InputError({other.file, 0, "role"}, to_string(other.role), "at least one trial with role: train");
   }
   check_can_move(model, parameters);
   progress("the model as given", 0.0);
@@ -191,6 +191,8 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   Fit result;
   result.before = given.scores;
   result.after = known.estimate.scores;
+  result.before.test = test_error(model, data);
+  result.after.test = test_error(with_values(model, parameters, numbers.after), data);
   result.parameters = judge(parameters, numbers, options);
   result.windows = static_cast<int>(data.windows_of(Role::train).size());
   result.iterations = near.iterations + last.iterations;

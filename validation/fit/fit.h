@@ -45,7 +45,7 @@ struct Fit {
   bool converged = false;
 };
 
-/// Fits the parameters on the train trials and predicts the held-out ones. The interval is
+/// Fits the parameters on the train trials and predicts the held-out ones and the tests. The interval is
 ///   after - t * below to after + t * above, t = t(confidence, degrees of freedom),
 /// taken along the line on which the parameter is searched (its value, logarithm or reciprocal), so that it
 /// stays physical, with deviations to either side that are held against the cost (predict/profile.h). Source

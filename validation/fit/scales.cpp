@@ -45,8 +45,8 @@ effects::Scales seen_from(const effects::Scales& scales, double travel) {
 effects::Scales scales_at(const model::Model& model, const std::shared_ptr<const effects::Law>& law,
                           const std::string& at, const Data& data) {
   if (!data.has(Role::train)) {
-    throw InputError({data.trials.front().file, 0, "role"}, "held-out",
-                     "at least one trial with role: train");
+    const Trial& other = data.trials.empty() ? data.tests.front() : data.trials.front();
+    throw InputError({other.file, 0, "role"}, to_string(other.role), "at least one trial with role: train");
   }
   PredictorPool pool(model, data);
   for (const Candidate& candidate : list_candidates(pool, effects::Catalogue({law}), {}, {})) {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 #include "simulator/model/model.h"
 
 namespace plumbline::validation {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "controllers/hopping.h"
+#include "controllers/mabel_hopping/hopping.h"
 #include "simulator/model/plant.h"
 #include "validation/hopping/hip_watch.h"
 #include "validation/hopping/hop.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/terrain.h"
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 #include "simulator/integrate/held_commands.h"
 #include "simulator/integrate/integrator.h"
 #include "simulator/integrate/plant_ode.h"

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::validation {

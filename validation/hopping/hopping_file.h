@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 
 namespace plumbline::validation {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "controllers/hopping.h"
+#include "controllers/mabel_hopping/hopping.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::validation {

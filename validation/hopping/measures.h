@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "controllers/hopping_config.h"
+#include "controllers/mabel_hopping/hopping_config.h"
 #include "validation/hopping/hop_run.h"
 
 namespace plumbline::validation {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
 #include "simulator/sensing/low_pass.h"
 #include "simulator/trace/error.h"
@@ -68,13 +69,22 @@ Motion differentiated(Eigen::MatrixXd z, double period) {
 }
 
 /// Commands as they arrive at the motors: later by the delays.
+/// What a motion needs may be more than a motor can give.
+model::Model without_limits(model::Model model) {
+  for (model::Motor& motor : model.motors) {
+    motor.torque_limit.value = 0.0;
+  }
+  return model;
+}
+
 Eigen::MatrixXd recorded_commands(const model::Plant& plant, const Trial& trial) {
   const Eigen::MatrixXd sent = command_samples(plant.model(), trial.commands, trial.samples());
   Eigen::MatrixXd u = sent;
   for (int m = 0; m < plant.motors(); ++m) {
     const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
     for (Eigen::Index k = 0; k < trial.samples(); ++k) {
-      u(m, k) = sent(m, std::max<Eigen::Index>(0, k - late));
+      u(m, k) =
+          model::asked_torque(plant, m, sent(m, std::max<Eigen::Index>(0, k - late))) / plant.torque_gain(m);
     }
   }
   return u;
@@ -218,6 +228,7 @@ InverseModel inverse_model(const model::Model& model, const Trial& trial,
   if (!result.not_available.empty()) {
     return result;
   }
+  result.cutoff = cutoff;
   Eigen::MatrixXd z = positions(plant, trial, options.motion_cutoff);
   if (z.size() == 0) {
     result.not_available = "the sensors do not show every independent position";
@@ -225,7 +236,8 @@ InverseModel inverse_model(const model::Model& model, const Trial& trial,
   }
   const Motion motion = differentiated(std::move(z), trial.period);
   const Eigen::MatrixXd recorded = recorded_commands(plant, trial);
-  Accelerations accelerations(plant, moving, recorded);
+  model::Plant unlimited(without_limits(model), trial.locks);
+  Accelerations accelerations(unlimited, moving, recorded);
   Eigen::MatrixXd needed(static_cast<Eigen::Index>(moving.size()), n);
   for (Eigen::Index k = 0; k < n; ++k) {
     needed.col(k) = accelerations.needed(motion.z.col(k), motion.v.col(k), motion.a.col(k), recorded.col(k));

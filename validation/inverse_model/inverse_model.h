@@ -31,6 +31,7 @@ struct NeededForce {
 struct InverseModel {
   std::string not_available;  ///< the reason; empty: the results hold
   std::vector<NeededForce> motors;
+  double cutoff = 0.0;  ///< Hz: below which both forces were compared
 };
 
 /// Needed commands are those that give the measured acceleration a at the measured position and velocity:
@@ -41,9 +42,9 @@ struct InverseModel {
 ///   v = (q_(k+1) - q_(k-1)) / (2 T),  a = (q_(k+1) - 2 q_k + q_(k-1)) / T^2.
 /// Both forces then pass the same low-pass, so that only frequencies that the position shows are compared.
 /// The recorded command counts at the sample at which it was given; that it is held until the next one makes
-/// it half a sample late on average, which sharp pulses feel.
-/// Source: A. Janot, M. Gautier, M. Brunot, Data set and reference models of EMPS, 2019, who use these
-/// cutoffs, and decimate by ten where we only filter.
+/// it half a sample late on average, which sharp pulses feel. A command beyond a motor's torque limit counts
+/// as the limit; what is needed may be more. Source: A. Janot, M. Gautier, M. Brunot, Data set and reference
+/// models of EMPS, 2019, who use these cutoffs, and decimate by ten where we only filter.
 ///
 /// Not available when the model has hidden states, when the sensors do not show every position, and unless
 /// the motors that can move are as many as the independent positions.

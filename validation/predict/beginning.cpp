@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "validation/predict/jump_surface.h"
+#include "validation/predict/stance.h"
 #include "validation/predict/windows.h"
 
 namespace plumbline::validation {
@@ -52,6 +53,8 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   x.segment(nz, nz) = from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true));
   if (!trial_.start.empty()) {
     fall_freely(window, x);
+  } else if (trial_.switches.empty() && plant_.meets_ground()) {
+    stand_on_ground(plant_, from_channels_.deviations(), x);
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());

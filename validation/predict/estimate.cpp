@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace plumbline::validation {
 namespace {
@@ -260,7 +261,9 @@ std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<Free
       try {
         r = predictor.residual(data.windows[i], x0[i]);
       } catch (const std::runtime_error&) {
-        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]), 1e6);
+        // What cannot be integrated is not predicted: no number of floors says how far off it is.
+        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]),
+                                      std::numeric_limits<double>::infinity());
       }
       square[i] = predictor.squares(data.windows[i], r);
     });
@@ -367,9 +370,18 @@ double readings(const Data& data, int window) {
   return static_cast<double>(one.count) * static_cast<double>(trial.measured.size());
 }
 
+double test_error(const model::Model& model, const Data& data) {
+  if (data.tests.empty()) {
+    return 0.0;
+  }
+  const Data tests = data.of_tests();
+  PredictorPool pool(model, tests);
+  return estimate_states(pool).scores.test;
+}
+
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
   Scores scores;
-  for (const Role role : {Role::train, Role::held_out}) {
+  for (const Role role : {Role::train, Role::held_out, Role::test}) {
     // Channels are those of each trial; a channel that several trials measure counts once for each.
     double sum = 0.0;
     double count = 0.0;
@@ -380,7 +392,10 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
         count += one.channels;
       }
     }
-    (role == Role::train ? scores.train : scores.held_out) = count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    double& of_role = role == Role::train      ? scores.train
+                      : role == Role::held_out ? scores.held_out
+                                               : scores.test;
+    of_role = count > 0.0 ? std::sqrt(sum / count) : 0.0;
   }
   return scores;
 }

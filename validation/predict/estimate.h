@@ -13,6 +13,7 @@ namespace plumbline::validation {
 struct Scores {
   double train = 0.0;
   double held_out = 0.0;
+  double test = 0.0;  ///< of an estimate of Data::of_tests() only (test_error below)
   double square() const { return train * train + held_out * held_out; }
 };
 
@@ -35,6 +36,7 @@ struct Estimate {
       0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand
   int iterations = 0;
   bool converged = false;  ///< more iterations would gain nothing
+  bool stuck = false;      ///< the slopes promise much, but no step keeps it
 };
 
 struct EstimateOptions {
@@ -45,7 +47,8 @@ struct EstimateOptions {
 
 /// Ceres: minimises the squared residuals of the train windows over theta (within bounds) and each window's
 /// initial state; then, with theta fixed, the initial states of the held-out windows.
-/// start_x0 may be empty (from the measurements).
+/// start_x0 may be empty (from the measurements). A window that cannot be integrated at the end has an infinite
+/// error, and so has its role.
 Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                   const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                   const EstimateOptions& options);
@@ -65,6 +68,9 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
 /// The model as it is: gauss_newton without parameters, which finds the windows' initial states, from
 /// start_x0 or, where that is empty, from the measurements.
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0 = {});
+
+/// Error of the model as it is on the trials of role test, in floors, as in Scores; 0 without such trials.
+double test_error(const model::Model& model, const Data& data);
 
 /// Scores of per-window squares: mean over samples for each channel, then root mean square over channels.
 Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square);

@@ -196,6 +196,7 @@ class Search {
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
     result.iterations = iterations;
     result.converged = at_end;
+    result.stuck = stuck_;
     return result;
   }
 
@@ -212,6 +213,7 @@ class Search {
     }
   }
 
+  static constexpr double kMuch = 0.1;  // of the cost, promised by the parameters
   static constexpr int kSlow = 3;  // steps in a row that gain next to nothing: what is promised is not there
 
   /// False where no step would help, by what it promises or by trying.
@@ -232,6 +234,7 @@ class Search {
         return true;
       }
       if (!can_damp || !damping_.after_failure(times)) {
+        stuck_ = promise.parameters > kMuch;
         return false;
       }
     }
@@ -306,12 +309,38 @@ class Search {
   Point here_;
   std::vector<Reduced> reduced_;
   Damping damping_;
+  bool stuck_ = false;
 };
+
+/// Once more from where a search got stuck, with derivatives by differences of whole predictions: where a law's
+/// corners are sharper than the samples the linearisation of a piece promises what is not there. Only of few
+/// unknowns, because each costs a prediction of every window.
+Estimate unstuck(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Estimate stuck,
+                 const EstimateOptions& options) {
+  constexpr std::size_t kMostUnknowns = 24;
+  const Eigen::Index states = stuck.x0.empty() ? 0 : stuck.x0.front().size();
+  const bool few = parameters.size() + static_cast<std::size_t>(states) <= kMostUnknowns;
+  if (!stuck.stuck || !few || pool.data().predict.differences) {
+    return stuck;
+  }
+  Data by_differences = pool.data();
+  by_differences.predict.differences = true;
+  PredictorPool other(pool.model(), by_differences);
+  try {
+    Estimate further = Search(other, parameters, {stuck.theta, stuck.x0}, options).run();
+    return further.cost < stuck.cost ? further : stuck;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return stuck;
+  }
+}
 
 Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Point& from,
                 const EstimateOptions& options) {
-  return parameters.empty() ? initial_states(pool, parameters, from, options)
-                            : Search(pool, parameters, from, options).run();
+  return parameters.empty()
+             ? initial_states(pool, parameters, from, options)
+             : unstuck(pool, parameters, Search(pool, parameters, from, options).run(), options);
 }
 
 /// Parameters and initial states on longer and longer beginnings of the windows.

@@ -1,6 +1,7 @@
 // Windows through points at which a force jumps: a stop whose damping acts at once, play that closes.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "validation/predict/jump_surface.h"
 #include "validation/predict/windows.h"
@@ -8,11 +9,17 @@
 namespace plumbline::validation {
 
 // The integrator stopped there: the points become nodes, so that no piece runs across one.
+// Contacts that are more than the samples could show none of: a law that chatters is no explanation of them, and
+// its slopes cost as much as all others together.
 void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0) {
+  constexpr std::size_t kSome = 30;
   for (; events_seen_ < events.size(); ++events_seen_) {
     const integrate::Event& event = events[events_seen_];
     add_node(event.time - t0, event.state);
     jump_nodes_.push_back({nodes_ - 1, jumps_[static_cast<std::size_t>(event.index)], event.direction});
+    if (jump_nodes_.size() > kSome && 2 * static_cast<Eigen::Index>(jump_nodes_.size()) > nodes_) {
+      throw std::runtime_error("it chatters: contacts open and close more often than samples were taken");
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <thread>
@@ -36,9 +37,21 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work) 
   }
 }
 
-Data::Data(std::vector<Trial> all, const PredictOptions& options)
-    : trials(std::move(all)), windows(cut_windows(trials, options)), predict(options) {
+Data::Data(std::vector<Trial> all, const PredictOptions& options) : trials(std::move(all)), predict(options) {
+  const auto first_test = std::stable_partition(trials.begin(), trials.end(),
+                                                [](const Trial& one) { return one.role != Role::test; });
+  tests.assign(std::make_move_iterator(first_test), std::make_move_iterator(trials.end()));
+  trials.erase(first_test, trials.end());
+  windows = cut_windows(trials, options);
   threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Data Data::of_tests() const {
+  Data copy = *this;
+  copy.trials = tests;
+  copy.tests.clear();
+  copy.windows = cut_windows(copy.trials, predict);
+  return copy;
 }
 
 Data Data::thinned(std::size_t most) const {

@@ -26,7 +26,8 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work);
 
 class KeptResults;
 
-/// Trials and their windows, shared by all models that are tried on them.
+/// Trials and their windows, shared by all models that are tried on them. Those of role test are kept apart:
+/// what is fitted, and what chooses, never sees them.
 struct Data {
   std::vector<Trial> trials;
   std::vector<Window> windows;
@@ -34,8 +35,11 @@ struct Data {
   int threads = 2;
   const StopFlag* stop = nullptr;
   std::shared_ptr<KeptResults> kept{};  ///< where long work keeps its results (kept_results.h); may be empty
+  std::vector<Trial> tests{};           ///< trials of role test; none of them is among `trials`
 
   Data(std::vector<Trial> all, const PredictOptions& options);
+  /// The tests as its trials, cut into windows.
+  Data of_tests() const;
   /// The same trials with at most `most` windows of each role, spread evenly.
   Data thinned(std::size_t most) const;
   /// The same windows, of each the first `share` of its length, with the contact events in it.

@@ -13,10 +13,22 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kDeviations = 2.0;  // where the cost is looked at
-constexpr double kBetter = 0.5;      // of the cost: less does not move a value by a deviation
+constexpr double kBetter = 0.5;      // of the cost at the floor: less does not move a value by a deviation
+
+/// Change of a train cost that counts: kBetter in units of the residuals' mean square. Far above the floor the
+/// residuals are that much larger, and so is what a deviation changes.
+double better_than(const Data& data, double cost) {
+  double residuals = 0.0;
+  for (const int w : data.windows_of(Role::train)) {
+    residuals += readings(data, w);
+  }
+  return kBetter * std::max(1.0, cost / std::max(residuals, 1.0));
+}
 
 /// Relative change of such a cost at which a fit stops: well below what counts.
-double tolerance_of(double cost) { return kBetter / 5.0 / cost; }
+double tolerance_of(const Data& data, double cost) {
+  return better_than(data, cost) / 5.0 / std::max(cost, 1e-300);
+}
 
 /// The same windows without those of the held-out trials, which have no say.
 Data train_only(const Data& all) {
@@ -60,6 +72,7 @@ class Profile {
         look_for_better_(look_for_better) {
     units_ = search_units(parameters, at.theta);
     room_ = room(parameters, at.theta, units_);
+    counts_ = better_than(train.data(), at.cost);
   }
 
   /// Nothing where a better estimate was met.
@@ -94,7 +107,7 @@ class Profile {
     }
     for (const double large : large_values(p)) {
       const std::optional<Held> held = fit_held(p, distance_to(p, large), here());
-      if (held && held->rise < kBetter) {
+      if (held && held->rise < counts_) {
         better_ = held->estimate;
         return true;
       }
@@ -205,7 +218,7 @@ class Profile {
       if (!held) {
         break;  // it cannot be integrated there: no value of these data
       }
-      if (look_for_better_ && held->rise < -kBetter) {
+      if (look_for_better_ && held->rise < -counts_) {
         better_ = held->estimate;
         return {};
       }
@@ -236,7 +249,8 @@ class Profile {
     pinned.lower = pinned.upper = theta[p];
     try {
       const Estimate found =
-          gauss_newton(pool_, held, theta, from.estimate.x0, {kIterations, tolerance_of(at_.cost), false});
+          gauss_newton(pool_, held, theta, from.estimate.x0,
+                                          {kIterations, tolerance_of(pool_.data(), at_.cost), false});
       return Held{std::abs(to), found.cost - at_.cost, found};
     } catch (const Stopped&) {
       throw;
@@ -251,6 +265,7 @@ class Profile {
   std::vector<Eigen::VectorXd> x0_;
   const Precision& precision_;
   bool look_for_better_;
+  double counts_ = 0.0;  // change of the cost that counts
   Eigen::VectorXd units_;
   Room room_;
   Estimate better_;
@@ -267,7 +282,8 @@ std::optional<Estimate> from_there(PredictorPool& pool, const std::vector<FreePa
     x0[static_cast<std::size_t>(train[i])] = met.x0[i];
   }
   try {
-    return gauss_newton(pool, parameters, met.theta, x0, {kIterations, tolerance_of(was.cost), false});
+    return gauss_newton(pool, parameters, met.theta, x0,
+                        {kIterations, tolerance_of(pool.data(), was.cost), false});
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
@@ -320,7 +336,8 @@ Profiled profile(PredictorPool& pool, const std::vector<FreeParameter>& paramete
     }
     may_lift = !lifted;
     const std::optional<Estimate> next = from_there(pool, parameters, result.estimate, one.better());
-    const double most = result.estimate.cost + (lifted ? kBetter : -kBetter);
+    const double counts = better_than(pool.data(), result.estimate.cost);
+    const double most = result.estimate.cost + (lifted ? counts : -counts);
     if (next && next->cost <= most) {
       result.estimate = *next;
     } else {

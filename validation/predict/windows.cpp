@@ -18,6 +18,9 @@ namespace {
 /// tens at the tolerance of 1e-5; of a method of third order they grow as the tolerance's third root falls.
 long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::cbrt(1e-5 / tolerance)); }
 
+/// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
+constexpr double kStiff = 16.0;
+
 }  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
@@ -126,12 +129,28 @@ Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector
 // Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps
 // are short where it does. Elsewhere a piece is a sample.
 void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
+  if (options_.method == integrate::Method::explicit_rk) {
+    try {
+      run(window, x0, integrate::Method::explicit_rk, std::min(options_.most_steps, kStiff));
+      return;
+    } catch (const std::runtime_error&) {
+      // Stiff: dry friction that holds, a hard contact. Decided anew for every window, so that what a window
+      // gives does not depend on those before it.
+      run(window, x0, integrate::Method::rosenbrock, options_.most_steps);
+      return;
+    }
+  }
+  run(window, x0, options_.method, options_.most_steps);
+}
+
+void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
+                    double most_steps) {
   begin_nodes(window);
   JumpOde ode(plant_, jumps_);
   integrate::Options options;
   options.set_tolerance(options_.relative_tolerance);
-  options.method = options_.method;
-  options.order = options_.method == integrate::Method::explicit_rk ? 3 : 0;
+  options.method = method;
+  options.order = method == integrate::Method::explicit_rk ? 3 : 0;
   options.max_steps = most_steps_of_sample(options_.relative_tolerance);
   integrate::Integrator integrator(ode, options);
   refresh_commands();
@@ -164,7 +183,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
     }
     add_sample(k + 1, integrator.state());
     if (static_cast<double>(integrator.summary().steps) >
-        options_.most_steps * (static_cast<double>(k) + burst)) {
+        most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
   }

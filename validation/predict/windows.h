@@ -37,7 +37,8 @@ struct PredictOptions {
   /// samples); a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
   /// explicit_rk runs at order 3: one step for each held sample, four evaluations, errors far below any
-  /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place.
+  /// encoder's count. A model whose feet meet a ground takes rosenbrock in its place, and so does a window in
+  /// which the explicit method needs many steps (dry friction that holds).
   integrate::Method method = integrate::Method::explicit_rk;
   /// Derivatives by differences of whole predictions: slower, and right wherever the linearisation of a piece
   /// is not.
@@ -160,6 +161,7 @@ class Predictor {
   };
 
   void run(const Window& window, const Eigen::VectorXd& x0);
+  void run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method, double most_steps);
   void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
   void advance_in_pieces(integrate::Integrator& integrator, double end, double t0);
   void add_jumps(const std::vector<integrate::Event>& events, double t0);

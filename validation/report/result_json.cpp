@@ -7,6 +7,9 @@
 namespace plumbline::validation {
 namespace {
 
+/// 0: there is no trial of role test.
+nlohmann::json test_or_null(double error) { return error > 0.0 ? nlohmann::json(error) : nlohmann::json(); }
+
 nlohmann::json to_json(const RankRow& row) {
   return {{"effect", row.effect},
           {"at", row.at},
@@ -61,10 +64,15 @@ nlohmann::json to_json(const Finding& finding) {
 }  // namespace
 
 nlohmann::json to_json(const UnexplainedForce& force) {
-  nlohmann::json json{{"trial", force.trial}, {"at", force.at},
-                      {"of", force.of},       {"unit", force.unit},
-                      {"rms", force.rms},     {"relative", force.relative},
-                      {"words", force.words}, {"dependences", nlohmann::json::array()}};
+  nlohmann::json json{{"trial", force.trial},
+                      {"at", force.at},
+                      {"of", force.of},
+                      {"unit", force.unit},
+                      {"rms", force.rms},
+                      {"relative", force.relative},
+                      {"below", force.below > 0.0 ? nlohmann::json(force.below) : nlohmann::json()},
+                      {"words", force.words},
+                      {"dependences", nlohmann::json::array()}};
   for (const Dependence& d : force.dependences) {
     json["dependences"].push_back({{"variable", d.variable},
                                    {"unit", d.unit},
@@ -81,6 +89,7 @@ nlohmann::json to_json(const Comparison& comparison) {
   nlohmann::json json;
   json["train"] = comparison.scores.train;
   json["held_out"] = comparison.scores.held_out;
+  json["test"] = test_or_null(comparison.scores.test);
   json["channels"] = nlohmann::json::array();
   for (const ChannelError& c : comparison.channels) {
     json["channels"].push_back({{"trial", c.trial},
@@ -98,6 +107,10 @@ nlohmann::json to_json(const Comparison& comparison) {
                                {"to", w.to},
                                {"ratio", w.ratio},
                                {"worst_channel", w.worst_channel}});
+  }
+  json["lost"] = nlohmann::json::array();
+  for (const LostWindow& w : comparison.lost) {
+    json["lost"].push_back({{"trial", w.trial}, {"from", w.from}, {"to", w.to}, {"reason", w.reason}});
   }
   json["phases"] = nlohmann::json::array();
   for (const PhaseError& p : comparison.phases) {
@@ -123,6 +136,8 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["interrupted"] = diagnosis.interrupted;
   json["windows"] = diagnosis.windows;
   json["cut_windows"] = diagnosis.cut_windows;
+  json["test_before"] = test_or_null(diagnosis.test_before);
+  json["test_after"] = test_or_null(diagnosis.test_after);
   for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "pairs", "ladder"}) {
     json[key] = nlohmann::json::array();
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/diagnose/own_parameters.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -27,29 +29,59 @@ Judged judged(double train, double held_out) {
   return held_out > 0.0 ? Judged{"held-out", held_out} : Judged{"train", train};
 }
 
-Judged judged(const Rung& rung) { return judged(rung.train(), rung.foretold()); }
+Judged judged(const Rung& rung) { return judged(rung.train(), rung.held_out()); }
+
+/// "arm:mass by +2.2, drive:torque_constant by -2.0 deviations": the model's own numbers that moved, the
+/// farthest first, where the model as given is clearly above the floor and the error fell with them; else
+/// empty.
+std::string moved_numbers(const Diagnosis& diagnosis) {
+  constexpr double kClearly = 1.2;  // floors: as DiagnoseOptions::finished
+  constexpr double kMoved = 0.5;    // deviations; less is what any fit does
+  constexpr std::size_t kShown = 4;
+  const double given = judged(diagnosis.ladder.front()).error;
+  if (given < kClearly || judged(diagnosis.ladder.back()).error >= given) {
+    return "";
+  }
+  std::vector<OwnParameter> own = own_values(diagnosis.final_stage);
+  own.erase(std::remove_if(own.begin(), own.end(),
+                           [](const OwnParameter& one) { return std::abs(one.shift()) < kMoved; }),
+            own.end());
+  std::stable_sort(own.begin(), own.end(), [](const OwnParameter& a, const OwnParameter& b) {
+    return std::abs(a.shift()) > std::abs(b.shift());
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(own.size(), kShown); ++i) {
+    text += fmt::format("{}{} by {:+.1f}", i > 0 ? ", " : "", own[i].label, own[i].shift());
+  }
+  if (own.size() > kShown) {
+    text += fmt::format(", and {} more", own.size() - kShown);
+  }
+  return text.empty() ? text : text + " deviations";
+}
+
+/// "the held-out error falls from 151.20 to 65.50 times the floor: 81.2 % of the squared error above the floor is
+/// explained."
+std::string fall_sentence(const Diagnosis& diagnosis) {
+  const Judged first = judged(diagnosis.ladder.front());
+  const Judged last = judged(diagnosis.ladder.back());
+  const double before = first.error * first.error - 1.0;
+  const double after = std::max(last.error * last.error - 1.0, 0.0);
+  const std::string share =
+      before > after
+          ? fmt::format(": {:.1f} % of the squared error above the floor is explained", 100.0 * (1.0 - after / before))
+          : "";
+  return fmt::format("the {} error {} from {:.2f} to {:.2f} times the floor{}.", last.role,
+                     last.error <= first.error ? "falls" : "rises", first.error, last.error, share);
+}
 
 std::string whole_summary(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::missing && diagnosis.accepted.size() == 1) {
-    return finding_sentences(diagnosis.accepted.front(), diagnosis.verdict);
+    return finding_sentences(diagnosis.accepted.front(), diagnosis);
   }
-  const Judged first = judged(diagnosis.ladder.front());
-  const Judged last = judged(diagnosis.ladder.back());
   if (diagnosis.verdict == Verdict::missing) {
-    return fmt::format(
-        "Missing: {}. With them the {} error falls from {:.2f} to {:.2f} times the floor; {:.1f} % of "
-        "the squared error above the floor stays unexplained.",
-        names_of(diagnosis.accepted), last.role, first.error, last.error,
-        100.0 * diagnosis.unexplained_share);
+    return fmt::format("Missing: {}. With them {}", names_of(diagnosis.accepted), fall_sentence(diagnosis));
   }
-  if (diagnosis.accepted.empty()) {
-    return verdict_sentence(diagnosis);
-  }
-  return fmt::format(
-      "Unexplained: the {} error stays {:.2f} times the floor. {} help{}, from {:.2f} times the floor, "
-      "but {} not the whole answer.",
-      last.role, last.error, names_of(diagnosis.accepted), diagnosis.accepted.size() == 1 ? "s" : "",
-      first.error, diagnosis.accepted.size() == 1 ? "is" : "are");
+  return verdict_sentence(diagnosis);
 }
 
 }  // namespace
@@ -57,34 +89,59 @@ std::string whole_summary(const Diagnosis& diagnosis) {
 std::string verdict_sentence(const Diagnosis& diagnosis) {
   const Judged last = judged(diagnosis.ladder.back());
   switch (diagnosis.verdict) {
-    case Verdict::nothing_missing:
+    case Verdict::nothing_missing: {
+      const std::string moved = moved_numbers(diagnosis);
+      if (!moved.empty()) {
+        return fmt::format(
+            "Nothing is missing once numbers of the model move within what is stated of them ({}): it then "
+            "predicts the {} motion to {:.2f} times what the sensors alone would leave; as given, to {:.2f}.",
+            moved, last.role, last.error, judged(diagnosis.ladder.front()).error);
+      }
       return fmt::format(
           "Nothing is missing: the model predicts the {} motion to {:.2f} times what the sensors "
           "alone would leave.",
           last.role, last.error);
-    case Verdict::unexplained:
+    }
+    case Verdict::unexplained: {
+      if (!diagnosis.accepted.empty()) {
+        const bool one = diagnosis.accepted.size() == 1;
+        return fmt::format(
+            "Found: {}, a part of what is missing. With {} {} No effect of the catalogue explains the rest.",
+            names_of(diagnosis.accepted), one ? "it" : "them", fall_sentence(diagnosis));
+      }
+      const std::string moved = moved_numbers(diagnosis);
       return fmt::format(
           "Unexplained: the {} error stays {:.2f} times the floor, and no effect of the catalogue "
           "explains it.{}",
           last.role, last.error,
-          diagnosis.accepted.empty() ? "" : " What follows helps, but is not the whole answer.");
+          moved.empty() ? "" : " Numbers of the model moved: " + moved + "; " + fall_sentence(diagnosis));
+    }
     case Verdict::missing:
       break;
   }
   return "";
 }
 
-std::string finding_sentences(const Finding& finding, Verdict verdict) {
+std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis) {
+  constexpr double kAsGood = 1.05;  // two numbers nearer than that are one
   const Judged before = judged(finding.train_before, finding.held_out_before);
-  const Judged after = judged(finding.train_after, finding.held_out_after);
-  const std::string train = after.role == "train" ? ""
-                                                  : fmt::format(" (train {:.2f} to {:.2f})",
-                                                                finding.train_before, finding.train_after);
+  Judged after = judged(finding.train_after, finding.held_out_after);
+  std::string tried;
+  const bool is_last = !diagnosis.accepted.empty() && diagnosis.accepted.back().label() == finding.label();
+  const Judged whole = diagnosis.ladder.empty() ? after : judged(diagnosis.ladder.back());
+  if (is_last && whole.role == after.role && whole.error > kAsGood * after.error) {
+    tried = fmt::format(" ({:.2f} on the windows on which it was tried)", after.error);
+    after = whole;
+  }
+  const std::string train =
+      after.role == "train" || !tried.empty()
+          ? ""
+          : fmt::format(" (train {:.2f} to {:.2f})", finding.train_before, finding.train_after);
   return fmt::format(
-      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}; {} chosen in "
+      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}{}; {} chosen in "
       "{:.0f} % of the resamples.{}",
-      verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
-      before.error, after.error, train,
+      diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
+      before.error, after.error, tried, train,
       finding.together_with.empty() ? "it was" : "together with " + finding.together_with + " it was",
       100.0 * finding.selected_share,
       finding.open_in_train
@@ -125,6 +182,18 @@ std::string part_sentence(const Diagnosis& diagnosis) {
   return said;
 }
 
+/// The error on trials that neither fitted nor chose; empty where there are none.
+std::string test_sentence(const Diagnosis& diagnosis) {
+  if (!(diagnosis.test_after > 0.0)) {
+    return "";
+  }
+  return fmt::format(
+      "On the trials of role test, which neither fitted nor chose, the error goes from {:.2f} to {:.2f} "
+      "times the "
+      "floor.",
+      diagnosis.test_before, diagnosis.test_after);
+}
+
 /// Where the held-out error at the train trials' best values is much larger than the foretold one, which
 /// decides (validation/predict/foretell.h): a caution with both; else empty.
 std::string open_values_sentence(const Diagnosis& diagnosis) {
@@ -145,7 +214,8 @@ std::string open_values_sentence(const Diagnosis& diagnosis) {
 
 std::vector<std::string> remarks(const Diagnosis& diagnosis) {
   std::vector<std::string> said;
-  for (const std::string& one : {open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
+  for (const std::string& one :
+       {test_sentence(diagnosis), open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
     if (!one.empty()) {
       said.push_back(one);
     }

@@ -13,7 +13,8 @@ namespace plumbline::validation {
 std::string verdict_sentence(const Diagnosis& diagnosis);
 
 /// "Missing: coulomb at drive. With it the held-out error falls from ... to ..."
-std::string finding_sentences(const Finding& finding, Verdict verdict);
+/// The last error is the ladder's, on all windows, where the finding is the last.
+std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis);
 
 /// What else is to be known of an answer, a few sentences each: what the train trials leave open of it, and
 /// on what part of the windows it was found. Needs a rung on the ladder.

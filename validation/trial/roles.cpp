@@ -1,4 +1,4 @@
-// Held-out data must not have been seen in fitting.
+// Held-out data must not have been seen in fitting, test data neither in fitting nor in choosing.
 #include <filesystem>
 
 #include "simulator/trace/error.h"
@@ -62,23 +62,27 @@ bool share_rows(const Trial& a, const Trial& b) {
   return false;
 }
 
-void check_pair(const Trial& held_out, const Trial& train) {
-  const std::string expected = "other data; what was fitted cannot be held out";
-  if (share_rows(held_out, train)) {
-    throw InputError({held_out.file, 0, "data"}, "the data file of the train trial " + train.file, expected);
+/// `later` must not have been seen when `earlier` was used.
+void check_pair(const Trial& later, const Trial& earlier) {
+  const std::string expected = later.role == Role::test
+                                   ? "other data; what was fitted or has chosen cannot test"
+                                   : "other data; what was fitted cannot be held out";
+  const std::string of_it = "of the " + to_string(earlier.role) + " trial " + earlier.file;
+  if (share_rows(later, earlier)) {
+    throw InputError({later.file, 0, "data"}, "the data file " + of_it, expected);
   }
-  if (same_numbers(held_out, train)) {
-    throw InputError({held_out.file, 0, "data"}, "the numbers of the train trial " + train.file, expected);
+  if (same_numbers(later, earlier)) {
+    throw InputError({later.file, 0, "data"}, "the numbers " + of_it, expected);
   }
 }
 
 }  // namespace
 
 void check_roles(const std::vector<Trial>& trials) {
-  for (const Trial& held_out : trials) {
-    for (const Trial& train : trials) {
-      if (held_out.role == Role::held_out && train.role == Role::train) {
-        check_pair(held_out, train);
+  for (const Trial& later : trials) {
+    for (const Trial& earlier : trials) {
+      if (later.role > earlier.role) {
+        check_pair(later, earlier);
       }
     }
   }

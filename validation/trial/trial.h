@@ -11,8 +11,10 @@
 
 namespace plumbline::validation {
 
-enum class Role { train, held_out };
-/// "train", "held-out"
+/// train: may be fitted. held_out: is predicted, and decides between models. test: is neither fitted nor used
+/// to choose; the error of what was chosen is reported on it.
+enum class Role { train, held_out, test };
+/// "train", "held-out", "test"
 std::string to_string(Role role);
 
 /// A channel measured by one of the model's sensors.
@@ -180,7 +182,8 @@ Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Com
 /// Only the model file that a trial names (resolved relative to the trial), to read the model first.
 std::string model_of_trial(const std::string& path);
 
-/// Throws InputError when two trials with different roles read the same data (same file or same content).
+/// Throws InputError when two trials with different roles have data in common (rows of one file, or the same
+/// numbers).
 void check_roles(const std::vector<Trial>& trials);
 
 }  // namespace plumbline::validation

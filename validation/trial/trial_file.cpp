@@ -472,13 +472,18 @@ Role read_role(const YamlNode& node) {
   if (text == "train") {
     return Role::train;
   }
-  if (text != "held-out") {
-    node.refuse("train or held-out" + nearest_names(text, {"train", "held-out"}));
+  if (text == "held-out") {
+    return Role::held_out;
   }
-  return Role::held_out;
+  if (text != "test") {
+    node.refuse("train, held-out or test" + nearest_names(text, {"train", "held-out", "test"}));
+  }
+  return Role::test;
 }
 
-std::string to_string(Role role) { return role == Role::train ? "train" : "held-out"; }
+std::string to_string(Role role) {
+  return role == Role::train ? "train" : role == Role::held_out ? "held-out" : "test";
+}
 
 std::string trial_yaml(const std::string& path) {
   std::error_code none;

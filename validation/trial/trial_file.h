@@ -86,7 +86,7 @@ struct TrialFile {
   std::vector<double> events;
 };
 
-/// train or held-out.
+/// train, held-out or test.
 Role read_role(const model::YamlNode& node);
 
 /// The trial.yaml that a path to it or to its folder means.

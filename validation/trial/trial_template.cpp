@@ -14,7 +14,8 @@ plumbline: trial/1            # always this line first
 title: What was done, in a few words
 
 model: ../model.yaml          # the robot's model file, relative to this file
-role: train                   # train: may be fitted; held-out: may only be predicted (another kind of motion)
+role: train                   # train: may be fitted; held-out: may only be predicted, and chooses (another kind of
+                              # motion); test: neither, the last error is reported on it
 
 data: data.csv                # .csv with header `name [unit]`, or MATLAB .mat; beside this file
 # data_folder_env: MY_DATA    # environment variable naming the folder of the data instead (--data DIR overrides)

@@ -1,0 +1,42 @@
+// Physical effects as a foreign world plays them: written from the textbooks' equations, sharing nothing with
+// the laws of the program that is tested.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plumbline::battery::worlds {
+
+/// An effect at a place with its numbers in SI units. What is not named is 0.
+struct Hidden {
+  std::string effect, at;
+  std::map<std::string, double> values;
+  double operator[](const std::string& name) const;
+};
+
+/// Reads "coulomb@mLA:level=0.01,smoothing_speed=0.03". Throws std::invalid_argument.
+Hidden hidden_from(const std::string& text);
+
+/// Motion of a place. `load`: force that a motor's gear passes on, either sign; 0 elsewhere.
+struct PlaceMotion {
+  double x = 0.0, v = 0.0, load = 0.0;
+};
+
+/// Is it a force of its place that follows from motion and load alone?
+bool is_force(const Hidden& effect);
+/// Does it need a state of its own (bristles)?
+bool has_state(const Hidden& effect);
+/// Force on the place; `state` as of the bristles. The sign of a velocity is tanh(v/s), with s a third of the
+/// effect's smoothing_speed.
+double force(const Hidden& effect, const PlaceMotion& m, double state);
+double state_rate(const Hidden& effect, const PlaceMotion& m, double state);
+
+/// Force on the motor's side of a gear that gives: x and v of its wind-up, motor less ratio times output.
+bool is_compliance(const Hidden& effect);
+double compliance_force(const Hidden& effect, double x, double v);
+
+/// Names of the effects that these worlds can play.
+bool is_known(const std::string& effect);
+
+}  // namespace plumbline::battery::worlds

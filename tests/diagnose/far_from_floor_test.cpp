@@ -1,0 +1,114 @@
+// Where hundreds of floors remain whatever one does: several effects at once, laws that trade with a model
+// parameter, records whose zeros are off.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "simulator/model/robot_file.h"
+#include "tests/diagnose/bench.h"
+#include "tests/predict/hopper.h"
+#include "validation/diagnose/family.h"
+#include "validation/diagnose/friction_everywhere.h"
+#include "validation/diagnose/objection.h"
+#include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/zero_errors.h"
+#include "validation/predict/lost_windows.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+model::EffectUse use_of(const std::string& law, const std::string& at) {
+  model::EffectUse use;
+  use.law = effects::Catalogue::all().find(law);
+  use.at = at;
+  return use;
+}
+
+TEST(Family, IsOfOnePlace) {
+  EXPECT_TRUE(are_of_one_family(use_of("coulomb", "mLA"), use_of("stribeck", "mLA")));
+  EXPECT_FALSE(are_of_one_family(use_of("coulomb", "mLA"), use_of("stribeck", "mLS")));
+  EXPECT_FALSE(are_of_one_family(use_of("coulomb", "mLA"), use_of("preload", "mLA")));
+  EXPECT_FALSE(are_of_one_family(use_of("boom", "base"), use_of("boom", "base"))) << "a family needs two";
+}
+
+// Friction of both kinds at both motors: one after the other the search would name compromises.
+TEST(FrictionEverywhere, IsFoundAtOnce) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004",
+                                 "coulomb@mLS:level=0.08", "viscous@mLS:damping=0.006"})
+                        .thinned(8);
+  const DiagnoseOptions options;
+  const Tried tried = try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data,
+                                     options, silent);
+  const std::optional<Group> group = friction_everywhere(tried, data, options, silent);
+  ASSERT_TRUE(group);
+  std::vector<std::string> labels;
+  for (const Candidate& candidate : group->candidates) {
+    labels.push_back(candidate.label());
+  }
+  EXPECT_THAT(labels, testing::IsSupersetOf({"coulomb@mLA", "viscous@mLA", "coulomb@mLS", "viscous@mLS"}));
+  EXPECT_LT(group->stage.estimate.scores.train, 1.1);
+}
+
+// One friction alone is named by itself: a group of several that does no better is none.
+TEST(FrictionEverywhere, IsNothingWhereOneIsEnough) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
+  const DiagnoseOptions options;
+  const Tried tried = try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data,
+                                     options, silent);
+  EXPECT_FALSE(friction_everywhere(tried, data, options, silent));
+}
+
+// Stated within 50 %, a rotor's inertia might be searched down to -50 %: a tenth of it is always there.
+TEST(StatedParameters, StayThoseOfAPhysicalRobot) {
+  model::Model model = model::read_model("tests/robots/pendulum/model.yaml", effects::Catalogue::all());
+  const double inertia = model.motors.front().rotor_inertia.value;
+  model.motors.front().rotor_inertia.uncertainty = 0.5 * inertia;
+  for (const FreeParameter& parameter : stated_parameters(with_stated_errors(model), 3.0)) {
+    if (parameter.label == "rotor_inertia@drive:inertia") {
+      EXPECT_DOUBLE_EQ(parameter.lower, -0.9 * inertia);
+      EXPECT_DOUBLE_EQ(parameter.upper, 1.5 * inertia);
+      return;
+    }
+  }
+  FAIL() << "no rotor inertia among the stated parameters";
+}
+
+// What cannot be integrated costs its window, not the command.
+TEST(LostWindows, AreNamedAndTheOthersStay) {
+  const Data data = bench_twins({});
+  std::vector<LostWindow> lost;
+  EXPECT_EQ(without_lost(bench(), data, lost).windows.size(), data.windows.size());
+  EXPECT_TRUE(lost.empty());
+  Data broken = data;
+  broken.trials.front().commands.front().values.segment(broken.windows[1].first, 5).setConstant(
+      std::numeric_limits<double>::quiet_NaN());
+  const Data kept = without_lost(bench(), broken, lost);
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost.front().trial, "siso_mLA");
+  EXPECT_DOUBLE_EQ(lost.front().from, data.trials.front().time[data.windows[1].first]);
+  EXPECT_FALSE(lost.front().reason.empty());
+  EXPECT_EQ(kept.windows.size() + 1, data.windows.size());
+}
+
+// A hopper whose height is recorded 25 mm too high never meets its ground: no slope leads there. Its zero
+// error begins where the foot has stood.
+TEST(ZeroErrors, BeginWhereTheFootHasStood) {
+  Data data({test::hopper_trial(test::hopper(), "bounce")}, {});
+  Trial& trial = data.trials.front();
+  trial.switches.clear();
+  trial.contact_events.clear();
+  const std::string height = trial.measured.front().sensor;
+  trial.measured.front().values.array() += 0.025;
+  trial.measured.front().offset_uncertainty = 0.03;
+  const model::Model model = with_zero_errors(test::hopper(), data);
+  ASSERT_EQ(model.effects.back().label(), "encoder_offset@" + height);
+  EXPECT_NEAR(model.effects.back().values.front().value, 0.025, 0.002);
+  EXPECT_EQ(model.effects.back().values.front().uncertainty, 0.03);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

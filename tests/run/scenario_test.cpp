@@ -1,0 +1,125 @@
+// Scenarios: where a run starts, what its controller sees, and when it is over.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/run/run_scenario.h"
+#include "tests/run/files.h"
+
+namespace plumbline::run {
+namespace {
+
+using testing::HasSubstr;
+
+const Eigen::VectorXd& column(const Table& table, const std::string& name) {
+  const Column* found = table.find(name);
+  EXPECT_NE(found, nullptr) << name;
+  return found->values;
+}
+
+class Hopping : public testing::TestWithParam<const char*> {};
+
+TEST_P(Hopping, TheStartIsTheFlightPhasesPose) {
+  LoadedScenario loaded = read_scenario(robots(std::string("mabel/scenarios/") + GetParam()));
+  loaded.scenario.start.clearance = 0.04;
+  model::Plant plant(loaded.model, {});
+  const Eigen::VectorXd x = start_state(plant, loaded.scenario.start);
+  EXPECT_NEAR(plant.position_of("torso", x.data()), 0.14, 1e-9);
+  EXPECT_NEAR(plant.position_of("leg_angle_left", x.data()), -0.262 - 0.14, 1e-9);
+  EXPECT_NEAR(plant.position_of("leg_shape_right", x.data()), 0.209, 1e-9);
+  EXPECT_NEAR(plant.position_of("mLS_right", x.data()), 31.42 * 0.209, 1e-8);  // no cable is stretched
+  const std::vector<model::Touch> touches = plant.touches(x.data());
+  EXPECT_NEAR(std::max(touches[0].depth, touches[1].depth), -0.04, 1e-8);
+  EXPECT_NEAR(touches[0].velocity.x(), -0.3, 0.05);  // the boom's inner leg is slower
+}
+
+TEST_P(Hopping, ItLandsAndCanBeRepeated) {
+  LoadedScenario loaded = read_scenario(robots(std::string("mabel/scenarios/") + GetParam()));
+  loaded.scenario.longest = 0.6;
+  RunOptions options;
+  options.trace = true;
+  const RunRecord run = run_scenario(loaded.model, loaded.scenario, &*loaded.controller, options);
+  EXPECT_FALSE(run.fell) << run.end;
+  EXPECT_GE(column(run.trace, "phase").maxCoeff(), 2.0);  // it has come down
+  const RunRecord again = run_scenario(loaded.model, loaded.scenario, &*loaded.controller, options);
+  EXPECT_EQ(column(run.trace, "q_torso"), column(again.trace, "q_torso"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Hopping, testing::Values("hopping.yaml", "hopping_boom.yaml"));
+
+/// The example in C on the leg's bench: controller and record see the same counts.
+TEST(Scenario, TheControllerSeesWhatIsRecorded) {
+  const LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hold_leg_angle.yaml"));
+  RunOptions options;
+  options.trace = true;
+  options.energy = true;
+  const RunRecord run = run_scenario(loaded.model, loaded.scenario, &*loaded.controller, options);
+  EXPECT_NEAR(run.time, 1.0, 1e-9);
+  const Eigen::VectorXd& recorded = column(run.record, "q_mLA");
+  const Eigen::VectorXd& error = column(run.trace, "error");
+  const double wanted = loaded.controller->constant("position_wanted");
+  for (Eigen::Index k = 0; k < recorded.size(); ++k) {
+    ASSERT_EQ(error[k], wanted - recorded[k]) << k;
+  }
+  EXPECT_NEAR(recorded[recorded.size() - 1], wanted,
+              0.2);  // held against the leg's weight by a spring in software
+  EXPECT_GT((recorded - column(run.trace, "q_mLA")).cwiseAbs().maxCoeff(), 0.0);  // counts are not the truth
+  EXPECT_LT(std::abs(run.energy_error), 1e-3 * run.energy_exchanged);
+}
+
+TEST(Scenario, AnEndIsSaidInWords) {
+  LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hopping.yaml"));
+  for (const char* name : {"kp_LA_left", "kp_LA_right", "kp_mLS_left", "kp_mLS_right"}) {
+    loaded.controller->set(name, 0.0);
+  }
+  const RunRecord run = run_scenario(loaded.model, loaded.scenario, &*loaded.controller, {});
+  EXPECT_TRUE(run.fell);
+  EXPECT_THAT(run.end,
+              testing::AnyOf(HasSubstr("fell"), HasSubstr("ground"), HasSubstr("switch of a hard stop")));
+  EXPECT_LT(run.time, 10.0);
+}
+
+TEST(Scenario, APlatformUnderAFootIsRefused) {
+  LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hopping.yaml"));
+  loaded.scenario.terrain = contact::Terrain(0.0, {{-1.0, 1.0, 0.3}});
+  EXPECT_THAT(
+      message_of<InputError>([&] { run_scenario(loaded.model, loaded.scenario, &*loaded.controller, {}); }),
+      HasSubstr("inside the terrain at the start"));
+}
+
+TEST(Scenario, StartsAreDrawnWithinTheirRangesAndAgainWithTheSeed) {
+  const LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hopping_boom.yaml"));
+  std::vector<Start> starts = draw_starts(loaded.scenario, 50, 3);
+  std::vector<Start> again = draw_starts(loaded.scenario, 50, 3);
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    EXPECT_GE(starts[k].clearance, 0.03);
+    EXPECT_LE(starts[k].clearance, 0.07);
+    EXPECT_GE(*starts[k].velocity("tower"), -0.6 / 2.25);
+    EXPECT_LE(*starts[k].velocity("tower"), -0.1 / 2.25);
+    EXPECT_NEAR(*starts[k].position("torso"), 0.14, 0.02);
+    EXPECT_EQ(*starts[k].position("torso"), *again[k].position("torso"));
+  }
+}
+
+TEST(Scenario, EveryMistakeIsOneLine) {
+  const auto error_of = [](const std::string& rest) {
+    const Folder folder;
+    const std::string file = folder.write(
+        "s.yaml", "plumbline: scenario/1\ntitle: test\nmodel: " + robots("mabel/mabel_planar.yaml") +
+                      "\nlength: {value: 1, unit: s}\n" + rest);
+    return message_of<InputError>([&] { read_scenario(file); });
+  };
+  EXPECT_EQ(error_of(""), "");
+  EXPECT_THAT(error_of("start: {positions: {hip_y: {value: 0, unit: m}}}\n"), HasSubstr("did you mean hip_"));
+  EXPECT_THAT(error_of("start: {positions: {hip_x: {value: 0, unit: rad}}}\n"),
+              HasSubstr("a unit like \"m\""));
+  EXPECT_THAT(error_of("ends: [{of: hip_z}]\n"), HasSubstr("an end with one of above, below"));
+  EXPECT_THAT(error_of("lenght: 3\n"), HasSubstr("did you mean length"));
+  EXPECT_THAT(error_of("vary: [{what: height, from: {value: 0, unit: m}, to: {value: 1, unit: m}}]\n"),
+              HasSubstr("position, velocity or clearance"));
+}
+
+}  // namespace
+}  // namespace plumbline::run

@@ -1,0 +1,37 @@
+// `plumbline simulate --scenario`: a robot under its controller.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/run/run_scenario.h"
+#include "validation/cli/platforms.h"
+#include "validation/trial/trial.h"
+
+namespace plumbline::cli {
+
+struct ScenarioOptions {
+  std::string scenario, model, controller, out, record, json;
+  std::vector<std::string> set;    ///< CONSTANT=VALUE of the controller, SI
+  std::vector<std::string> start;  ///< clearance=VALUE, position:NAME=VALUE, velocity:NAME=VALUE, SI
+  double seconds = 0.0;            ///< 0: as the scenario says
+  std::uint64_t seed = 1;          ///< of the sensors' noise
+  double tolerance = 0.0;          ///< 0: the usual one
+  std::optional<integrate::Method> method;
+  bool energy = false;  ///< whether the energy adds up, too
+  validation::Role role = validation::Role::train;
+  Platforms platforms;
+};
+
+/// Runs it, prints the course and the strides, writes what was asked for.
+void simulate_scenario(const ScenarioOptions& options);
+
+/// The scenario with what the options put in its place. Throws InputError.
+run::LoadedScenario load_scenario(const ScenarioOptions& options);
+
+/// CONSTANT=VALUE, in SI.
+void set_constant(run::ControllerSetup& setup, const std::string& text);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,120 @@
+#include "validation/diagnose/friction_everywhere.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "validation/diagnose/judged.h"
+#include "validation/diagnose/resample.h"
+#include "validation/predict/deviations.h"
+
+namespace plumbline::validation {
+namespace {
+
+bool is_plain_friction(const Candidate& candidate) {
+  const std::string& law = candidate.law->declaration().name;
+  return law == "viscous" || law == "coulomb";
+}
+
+/// The stage with all of them at their null values, not yet fitted.
+Stage with_all(const Stage& stage, const std::vector<Candidate>& candidates) {
+  Stage all = stage;
+  for (const Candidate& candidate : candidates) {
+    const Extended extended = extend(all, candidate, candidate.law->starts(candidate.scales).front());
+    all.model = extended.model;
+    all.parameters = extended.parameters;
+    all.estimate.theta = extended.theta;
+  }
+  return all;
+}
+
+Stage fitted(Stage all, const Data& data) {
+  constexpr int kIterations = 12;
+  constexpr double kTolerance = 2e-3;
+  PredictorPool pool(all.model, data);
+  all.estimate = gauss_newton(pool, all.parameters, all.estimate.theta, all.estimate.x0,
+                              {kIterations, kTolerance, false});
+  all.model = with_values(all.model, all.parameters, all.estimate.theta);
+  return all;
+}
+
+/// Those of the last effects whose strength the data tell from nothing by two deviations.
+std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& candidates, const Data& data) {
+  constexpr double kDeviations = 2.0;
+  PredictorPool pool(all.model, data);
+  const Eigen::VectorXd deviations =
+      precision_of(pool, data.windows_of(Role::train), all.parameters, all.estimate).deviations;
+  const int first = static_cast<int>(all.model.effects.size() - candidates.size());
+  std::vector<bool> is_told(candidates.size(), false);
+  for (std::size_t p = 0; p < all.parameters.size(); ++p) {
+    const FreeParameter& parameter = all.parameters[p];
+    const auto i = static_cast<Eigen::Index>(p);
+    if (parameter.id.effect >= first) {
+      const auto candidate = static_cast<std::size_t>(parameter.id.effect - first);
+      is_told[candidate] = all.estimate.theta[i] - parameter.lower > kDeviations * deviations[i];
+    }
+  }
+  std::vector<Candidate> kept;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (is_told[c]) {
+      kept.push_back(candidates[c]);
+    }
+  }
+  return kept;
+}
+
+Refit as_refit(const Stage& stage) {
+  Refit refit;
+  refit.extended = {stage.model, stage.parameters, stage.estimate.theta};
+  refit.estimate = stage.estimate;
+  return refit;
+}
+
+std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
+  constexpr std::size_t kLeast = 2;
+  std::vector<Candidate> candidates;
+  std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
+               is_plain_friction);
+  Stage all = fitted(with_all(tried.stage, candidates), data);
+  const std::vector<Candidate> kept = told(all, candidates, data);
+  if (kept.size() < kLeast) {
+    return {};
+  }
+  if (kept.size() < candidates.size()) {
+    all = fitted(with_all(tried.stage, kept), data);
+  }
+  return Group{kept, std::move(all), 0.0};
+}
+
+}  // namespace
+
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data,
+                                         const DiagnoseOptions& options, const Progress& progress) {
+  constexpr double kBetter = 0.8;
+  constexpr std::size_t kLeast = 2;
+  const auto count = std::count_if(tried.candidates.begin(), tried.candidates.end(), is_plain_friction);
+  const bool is_answered =
+      !tried.refits.empty() && is_below(options.finished, tried.refits.front().estimate, data);
+  if (static_cast<std::size_t>(count) < kLeast || is_answered) {
+    return {};
+  }
+  progress("friction at every joint", 0.97);
+  try {
+    std::optional<Group> group = fitted_group(tried, data);
+    if (!group) {
+      return {};
+    }
+    const Refit one = as_refit(group->stage);
+    const Refit best = tried.refits.empty() ? as_refit(tried.stage) : tried.refits.front();
+    group->share = share_better(one, best, data, options);
+    const bool is_better = judged(one.estimate, data) < kBetter * judged(best.estimate, data) &&
+                           judged(one.estimate, data) < kBetter * judged(tried.stage.estimate, data);
+    return is_better && group->share > options.stable ? group : std::nullopt;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return {};  // with so much friction it cannot be integrated
+  }
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,26 @@
+// Friction at every joint as one hypothesis: the commonest truth about a real robot, and one that a search for
+// one effect at a time meets late.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "validation/diagnose/look_ahead.h"
+
+namespace plumbline::validation {
+
+/// Several effects that were fitted at once, in the order in which they stand at the end of the model.
+struct Group {
+  std::vector<Candidate> candidates;
+  Stage stage;
+  double share = 0.0;  ///< of the resamples in which it predicts better than the best single effect
+};
+
+/// Viscous and Coulomb friction at all places that move, fitted at once from the stage that `tried` began
+/// from. Those that end at their bound or within two deviations of it are taken out, and the others fitted
+/// anew. Nothing where fewer than two are left, or where the error that counts is not at least a fifth below
+/// that of the best single effect.
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data,
+                                         const DiagnoseOptions& options, const Progress& progress);
+
+}  // namespace plumbline::validation

@@ -1,0 +1,157 @@
+#include "validation/diagnose/zero_errors.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "simulator/effects/catalogue.h"
+
+namespace plumbline::validation {
+namespace {
+
+struct ZeroError {
+  std::string sensor;
+  double deviation = 0.0;
+};
+
+/// Of the sensors that have no encoder_offset yet.
+std::vector<ZeroError> stated_in(const std::vector<Trial>& trials, const model::Model& model) {
+  std::map<std::string, double> stated;
+  for (const Trial& trial : trials) {
+    for (const Measured& channel : trial.measured) {
+      if (channel.offset_uncertainty > 0.0) {
+        const auto known = stated.emplace(channel.sensor, channel.offset_uncertainty).first;
+        known->second = std::min(known->second, channel.offset_uncertainty);
+      }
+    }
+  }
+  std::vector<ZeroError> errors;
+  for (const auto& [sensor, deviation] : stated) {
+    const bool is_known =
+        std::any_of(model.effects.begin(), model.effects.end(), [&, name = sensor](const auto& use) {
+          return use.law->declaration().name == "encoder_offset" && use.at == name;
+        });
+    if (!is_known) {
+      errors.push_back({sensor, deviation});
+    }
+  }
+  return errors;
+}
+
+model::Model with_offsets(model::Model model, const std::vector<ZeroError>& errors,
+                          const Eigen::VectorXd& offsets) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    model::EffectUse use;
+    use.law = effects::Catalogue::all().find("encoder_offset");
+    use.at = errors[i].sensor;
+    model::Quantity quantity;
+    quantity.value = offsets[static_cast<Eigen::Index>(i)];
+    quantity.uncertainty = errors[i].deviation;
+    quantity.source = "offset_uncertainty of the trials";
+    use.values.push_back(quantity);
+    model.effects.push_back(std::move(use));
+  }
+  return model;
+}
+
+/// Depths of each foot over the whole recorded motion, as the sensors say; feet x samples.
+std::vector<std::vector<double>> depths(const model::Model& model, const Data& data) {
+  std::vector<std::vector<double>> all(model.feet.size());
+  for (const Trial& trial : data.trials) {
+    Predictor predictor(model, trial, data.predict);
+    model::Plant& plant = predictor.plant();
+    if (!plant.meets_ground()) {
+      continue;
+    }
+    const Eigen::MatrixXd positions = predictor.measured_positions();
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+    for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+      x.head(positions.rows()) = positions.col(k);
+      for (std::size_t f = 0; f < all.size(); ++f) {
+        all[f].push_back(plant.foot_depth(static_cast<int>(f), x.data()).depth);
+      }
+    }
+  }
+  return all;
+}
+
+/// The depth that all but the deepest twentieth of the samples stay above.
+double reached(std::vector<double> depth) {
+  constexpr double kDeepest = 0.05;
+  const auto at = depth.begin() +
+                  static_cast<std::ptrdiff_t>((1.0 - kDeepest) * static_cast<double>(depth.size() - 1));
+  std::nth_element(depth.begin(), at, depth.end());
+  return *at;
+}
+
+/// Has a foot stood: are many of its depths near the deepest?
+bool has_stood(const std::vector<double>& depth) {
+  constexpr double kNear = 0.02;  // m: what zero errors of a few degrees do to a leg of a metre while it bends
+  constexpr double kMany = 0.15;
+  if (depth.empty() || !std::isfinite(depth.front())) {
+    return false;
+  }
+  const double near = reached(depth) - kNear;
+  const auto many = std::count_if(depth.begin(), depth.end(), [&](double one) { return one > near; });
+  return static_cast<double>(many) > kMany * static_cast<double>(depth.size());
+}
+
+/// Where the feet that have stood say that the offsets begin.
+Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<ZeroError>& errors,
+                                  const Data& data) {
+  constexpr double kRest = 5e-4;  // m, of a foot that carries a robot on a hard ground
+  constexpr double kWell = 1e-3;  // m, how well a depth is known
+  constexpr double kStep = 0.1;   // of an offset's deviation
+  const auto count = static_cast<Eigen::Index>(errors.size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(count);
+  const std::vector<std::vector<double>> here = depths(with_offsets(model, errors, none), data);
+  std::vector<std::size_t> feet;
+  for (std::size_t f = 0; f < here.size(); ++f) {
+    if (has_stood(here[f])) {
+      feet.push_back(f);
+    }
+  }
+  if (feet.empty()) {
+    return none;
+  }
+  const auto stood = static_cast<Eigen::Index>(feet.size());
+  Eigen::MatrixXd J(stood, count);  // by offsets in units of their deviations
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::VectorXd one = Eigen::VectorXd::Unit(count, i) * kStep * errors[static_cast<std::size_t>(i)].deviation;
+    const std::vector<std::vector<double>> there = depths(with_offsets(model, errors, one), data);
+    for (Eigen::Index f = 0; f < stood; ++f) {
+      const std::size_t foot = feet[static_cast<std::size_t>(f)];
+      J(f, i) = (reached(there[foot]) - reached(here[foot])) / kStep;
+    }
+  }
+  Eigen::VectorXd missing(stood);
+  for (Eigen::Index f = 0; f < stood; ++f) {
+    missing[f] = kRest - reached(here[feet[static_cast<std::size_t>(f)]]);
+  }
+  const Eigen::MatrixXd known = J * J.transpose() + kWell * kWell * Eigen::MatrixXd::Identity(stood, stood);
+  Eigen::VectorXd offsets = J.transpose() * known.ldlt().solve(missing);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    offsets[i] *= errors[static_cast<std::size_t>(i)].deviation;
+  }
+  return offsets;
+}
+
+}  // namespace
+
+model::Model with_zero_errors(const model::Model& model, const Data& data) {
+  const std::vector<ZeroError> errors = stated_in(data.trials, model);
+  if (errors.empty()) {
+    return model;
+  }
+  const bool has_switches = std::any_of(data.trials.begin(), data.trials.end(),
+                                        [](const Trial& trial) { return !trial.switches.empty(); });
+  const bool is_in_air = model.feet.empty() || has_switches;
+  return with_offsets(model, errors,
+                      is_in_air ? Eigen::VectorXd::Zero(static_cast<Eigen::Index>(errors.size()))
+                                : offsets_on_ground(model, errors, data));
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,15 @@
+// A run as the robot's own sensors recorded it.
+#pragma once
+
+#include "simulator/model/model.h"
+#include "simulator/trace/table.h"
+#include "validation/trial/trial.h"
+
+namespace plumbline::validation {
+
+/// The trial of a run's record (run::Recorder): commands as they were given, readings of all sensors and
+/// contact switches as the controller saw them. Throws InputError when the record is shorter than two
+/// samples.
+Trial recorded_run(const model::Model& model, const Table& record, const std::string& title);
+
+}  // namespace plumbline::validation
