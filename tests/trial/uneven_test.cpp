@@ -154,16 +154,17 @@ TEST_F(Uneven, SectionsAndWhatIsLeftOutMakeStretches) {
 
 TEST_F(Uneven, MissingCellsAreFilledOnlyWhereTheTrialSaysSo) {
   std::string csv = log_at(even_times(0.01, 101));
-  const auto lose = [&](double t) {  // the angle's cell
-    const std::string time = "\n" + std::to_string(t).substr(0, 4);
-    const std::size_t row = csv.find(time) + 1;
-    std::size_t begin = row;
+  const auto lose = [&](int row) {  // its angle
+    std::size_t begin = 0;
+    for (int line = 0; line <= row; ++line) {
+      begin = csv.find('\n', begin) + 1;
+    }
     for (int comma = 0; comma < 3; ++comma) {
       begin = csv.find(',', begin) + 1;
     }
     csv.replace(begin, csv.find(',', begin) - begin, "nan");
   };
-  lose(0.31);
+  lose(31);
   const std::string message = input_error([&] { read(csv); });
   EXPECT_NE(message.find("angle: found \"nan\""), std::string::npos) << message;
   EXPECT_NE(message.find("missing: fill"), std::string::npos) << message;
@@ -171,7 +172,7 @@ TEST_F(Uneven, MissingCellsAreFilledOnlyWhereTheTrialSaysSo) {
   EXPECT_TRUE(one.stretches.empty());
   EXPECT_LT(error(one), 1e-3);
   for (int k = 61; k < 75; ++k) {
-    lose(0.01 * k + 1e-6);
+    lose(k);
   }
   const Trial many = read(csv, "commands:\n", "missing: fill\ncommands:\n");
   ASSERT_EQ(many.stretches.size(), 2U);
