@@ -1,9 +1,11 @@
 #include "validation/api/diagnosing.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/diagnose/found_values.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {
@@ -46,14 +48,16 @@ void save(const Diagnosis& diagnosis, const model::Model& given, const std::stri
     const model::EffectUse& use = stage.model.effects[e];
     const effects::Values numbers = use.numbers();
     if (!use.law->is_null(numbers.data())) {
-      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use)});
+      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use),
+                       validation::found_deviations(diagnosis, static_cast<int>(e))});
     }
   }
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
     const auto& parameter = stage.parameters[p];
     if (parameter.id.effect < static_cast<int>(own)) {
-      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)], 0.0,
-                        parameter.unit, "diagnose"});
+      const double deviation = validation::found_deviation(diagnosis, parameter.id);
+      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)],
+                        std::isfinite(deviation) ? deviation : 0.0, parameter.unit, "diagnose"});
     }
   }
   model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
