@@ -28,7 +28,5 @@ void add_suggest(CLI::App& app, Outcome& outcome);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);
-void add_key(CLI::App& app, Outcome& outcome);
-void add_robot(CLI::App& app, Outcome& outcome);
 
 }  // namespace plumbline::cli
