@@ -4,18 +4,19 @@
 cmake_minimum_required(VERSION 3.25)
 
 # What each part may include besides itself. Parts not named here may not exist.
-set(parts simulator/effects simulator/trace simulator/sensing simulator/model simulator/integrate
+set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
     simulator/run simulator/render contact controllers validation tests)
 set(may_simulator/effects)
 set(may_simulator/trace)
 set(may_simulator/sensing)
 set(may_contact simulator/effects)
-set(may_simulator/integrate simulator/model simulator/effects contact simulator/trace)
-set(may_simulator/model simulator/effects contact simulator/trace)
-set(may_simulator/run simulator/integrate simulator/model simulator/sensing simulator/effects contact simulator/trace controllers)
+set(may_simulator/rigid)
+set(may_simulator/integrate simulator/model simulator/rigid simulator/effects contact simulator/trace)
+set(may_simulator/model simulator/rigid simulator/effects contact simulator/trace)
+set(may_simulator/run simulator/integrate simulator/model simulator/rigid simulator/sensing simulator/effects contact simulator/trace controllers)
 set(may_simulator/render simulator/model simulator/trace)
 set(may_controllers)
-set(may_validation simulator/effects simulator/trace simulator/sensing simulator/model simulator/integrate
+set(may_validation simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
     simulator/run simulator/render contact controllers)
 set(may_tests ${parts})
 
@@ -31,8 +32,8 @@ set(seen_vtk simulator/render)
 set(seen_assimp simulator/render)
 
 # Parts that use nothing but the standard library and, where said, Eigen.
-set(pure_parts simulator/effects simulator/sensing contact controllers)
-set(eigen_parts simulator/effects simulator/sensing contact)
+set(pure_parts simulator/effects simulator/sensing simulator/rigid contact controllers)
+set(eigen_parts simulator/effects simulator/sensing simulator/rigid contact)
 
 set(violations 0)
 function(complain file line message)
