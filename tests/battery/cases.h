@@ -65,9 +65,8 @@ const std::vector<Row>& hopper_foreign_rows();
 using Pair = std::pair<std::string, std::string>;
 const std::vector<Pair>& leg_bench_pairs();
 
-/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case, and
-/// the sealed one, which is for releases). Throws
-/// std::invalid_argument for another name.
+/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case,
+/// and the sealed one, which is for releases). Throws std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);
 
 /// All cases in the order of the tables.

@@ -79,7 +79,8 @@ void show_bare(const Result& result) {
 }
 
 void show(const Result& result, const Inputs& inputs) {
-  inputs.run.bare_only || !inputs.run.write.empty() ? show_bare(result) : fmt::print("{}\n", table_line(result));
+  inputs.run.bare_only || !inputs.run.write.empty() ? show_bare(result)
+                                                    : fmt::print("{}\n", table_line(result));
   if (inputs.explain) {
     fmt::print("{}", explanation(result));
   }

@@ -91,7 +91,8 @@ TEST(PublishedFile, HoldsCurvesToo) {
 }
 
 TEST(PublishedFile, TheShippedOneIsWhole) {
-  const PublishedRobot robot = read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
+  const PublishedRobot robot =
+      read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
   ASSERT_EQ(robot.gaits.size(), 1U);
   EXPECT_TRUE(robot.gaits[0].section);
   std::set<std::string> names;

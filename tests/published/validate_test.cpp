@@ -21,7 +21,8 @@ TEST(Validate, MeasuresWhatWasRunAndDoesNotPassOnWhatWasNot) {
   options.enough = 15;
   options.draws = 2;
   options.held = options.orbit = false;
-  const PublishedRobot robot = read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
+  const PublishedRobot robot =
+      read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
   const GaitValidation done = validate(robot.gaits.front(), options, [](const std::string&, double) {});
   ASSERT_EQ(done.verdicts.size(), robot.gaits.front().quantities.size());
   EXPECT_FALSE(verdict_of(done, "orbit with the update of the torso").simulated);

@@ -124,7 +124,8 @@ void print_step(const Recipe& recipe, const Step& step, const StepResult& result
     for (const auto& [name, part] : weak.parts) {
       parts += fmt::format("{}{:+.2f} {}", parts.empty() ? "" : " ", part, name);
     }
-    fmt::print("  hardly identifiable (known to within {:.2g} times the values): {}\n", weak.deviation, parts);
+    fmt::print("  hardly identifiable (known to within {:.2g} times the values): {}\n", weak.deviation,
+               parts);
   }
   if (step.method != "information") {
     for (const validation::Untold& one : untold(recipe, result)) {

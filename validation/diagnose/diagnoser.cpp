@@ -120,7 +120,8 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
   constexpr double kWorse = 1.2;
   if (judged(fitted.stage.estimate, data_) > kWorse * judged(given.stage.estimate, data_)) {
-    look(options_.most_effects, diagnosis);  // values that do not hold on the other motion are none of the robot
+    look(options_.most_effects,
+         diagnosis);  // values that do not hold on the other motion are none of the robot
     return;
   }
   if (!explains_much(given, fitted)) {
