@@ -69,7 +69,7 @@ void add_switch(const TrialArrays& arrays, const Model& model, const Grid& grid,
     }
   }
   trial.switches.push_back(
-      record_of(*model.find_switch(channel.name), channel.name, grid.held(signal.values)));
+      validation::record_of(*model.find_switch(channel.name), channel.name, grid.held(signal.values)));
 }
 
 void add_measured(const TrialArrays& arrays, const Model& model, const Grid& grid, Trial& trial) {
