@@ -41,7 +41,7 @@ std::vector<HorizonError> errors_of(const model::Model& model, const Trial& tria
 
 TEST(Horizon, IsTheExtrapolationOfTheBestLine) {
   // The straight line that fits a t^2 / 2 best over a window W is off by a (t^2 - W t + W^2 / 6) / 2 at t.
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const double window = 0.5;
   const std::vector<HorizonError> errors = errors_of(free_body(folder.path("")), accelerated(), window);
   ASSERT_EQ(errors.size(), 4U);
@@ -61,7 +61,7 @@ TEST(Horizon, IsTheExtrapolationOfTheBestLine) {
 }
 
 TEST(Horizon, IsAtTheFloorForTheRightModel) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Trial still = accelerated();
   still.measured[0].values.setConstant(0.25);
   for (const HorizonError& error : errors_of(free_body(folder.path("")), still, 0.5)) {
@@ -70,7 +70,7 @@ TEST(Horizon, IsAtTheFloorForTheRightModel) {
 }
 
 TEST(Horizon, DoesNotReachAcrossAnEvent) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Trial struck = accelerated();
   struck.events = {3.0};
   const std::vector<HorizonError> errors = errors_of(free_body(folder.path("")), struck, 0.5);
@@ -82,7 +82,7 @@ TEST(Horizon, DoesNotReachAcrossAnEvent) {
 }
 
 TEST(Horizon, IsLeftOutWhereNoWindowReachesIt) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Trial brief = accelerated();
   const Eigen::Index samples = 1000;
   brief.time.conservativeResize(samples);
