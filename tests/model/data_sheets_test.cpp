@@ -158,7 +158,7 @@ TEST_F(DataSheets, WhatIsRefused) {
       HasSubstr("a torque constant beside a winding"));
   EXPECT_THAT(refusal("ratios:", "effects:\n  - {effect: viscous, at: drive, values: {}}\nratios:"),
               HasSubstr("which has the effect viscous, too"));
-  EXPECT_THAT(refusal("ratios:", "joint_dynamics: took\nratios:"), HasSubstr("did you mean take"));
+  EXPECT_THAT(refusal("ratios:", "joint_dynamics: took\nratios:"), HasSubstr("expected take or leave"));
   EXPECT_THAT(refusal("rate: true", "rate: yes"),
               HasSubstr("sensors.gyro.rate: found \"yes\", expected true or false"));
   EXPECT_THAT(refusal("noise: {value: 0.1, unit: deg/s, source: s}, ", ""),
