@@ -15,7 +15,7 @@ struct Observation {
   double deviation = 1.0;
 };
 
-/// What a sensor reads, its offset and scale errors included; its deviation is the sensor's floor (1e-9 where that is zero).
+/// A sensor's true position; its deviation is the sensor's floor (1e-9 where that is zero).
 Observation observe_sensor(const Plant& plant, int sensor);
 /// A joint, coordinate, motor or pulley by name. Throws InputError for an unknown one.
 Observation observe_place(const Plant& plant, const std::string& name, double deviation);
