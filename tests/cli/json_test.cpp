@@ -93,8 +93,8 @@ TEST_F(Json, CheckOfATrial) {
 
 TEST_F(Json, Compare) {
   const json compared = from({"compare", "trials/steps", "trials/swing"});
-  EXPECT_THAT(keys(compared),
-              UnorderedElementsAre("train", "held_out", "channels", "windows", "phases", "horizons"));
+  EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows", "phases",
+                                                   "horizons", "lost", "test"));
   EXPECT_THAT(keys(compared["horizons"][0]),
               UnorderedElementsAre("trial", "channel", "role", "unit", "horizon", "rms", "windows", "lost"));
   ASSERT_EQ(compared["channels"].size(), 4U);
