@@ -32,7 +32,7 @@ TEST_F(Ladder, BaseFirstAndTheErrorFalls) {
   ASSERT_EQ(json["models"].size(), 2U);
   const nlohmann::json& bare = json["models"][0];
   const nlohmann::json& full = json["models"][1];
-  EXPECT_THAT(keys(bare), UnorderedElementsAre("file", "name", "train", "held_out", "trials"));
+  EXPECT_THAT(keys(bare), UnorderedElementsAre("file", "name", "train", "held_out", "test", "trials"));
   EXPECT_EQ(bare["name"], "model.yaml");
   EXPECT_LT(full["train"], 0.5 * bare["train"].get<double>());
   EXPECT_LT(full["held_out"], 0.5 * bare["held_out"].get<double>());
