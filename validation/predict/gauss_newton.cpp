@@ -312,35 +312,10 @@ class Search {
   bool stuck_ = false;
 };
 
-/// Once more from where a search got stuck, with derivatives by differences of whole predictions: where a
-/// law's corners are sharper than the samples the linearisation of a piece promises what is not there. Only
-/// of few unknowns, because each costs a prediction of every window.
-Estimate unstuck(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Estimate stuck,
-                 const EstimateOptions& options) {
-  constexpr std::size_t kMostUnknowns = 24;
-  const Eigen::Index states = stuck.x0.empty() ? 0 : stuck.x0.front().size();
-  const bool few = parameters.size() + static_cast<std::size_t>(states) <= kMostUnknowns;
-  if (!stuck.stuck || !few || pool.data().predict.differences) {
-    return stuck;
-  }
-  Data by_differences = pool.data();
-  by_differences.predict.differences = true;
-  PredictorPool other(pool.model(), by_differences);
-  try {
-    Estimate further = Search(other, parameters, {stuck.theta, stuck.x0}, options).run();
-    return further.cost < stuck.cost ? further : stuck;
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return stuck;
-  }
-}
-
 Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Point& from,
                 const EstimateOptions& options) {
-  return parameters.empty()
-             ? initial_states(pool, parameters, from, options)
-             : unstuck(pool, parameters, Search(pool, parameters, from, options).run(), options);
+  return parameters.empty() ? initial_states(pool, parameters, from, options)
+                            : Search(pool, parameters, from, options).run();
 }
 
 /// Parameters and initial states on longer and longer beginnings of the windows.
