@@ -108,7 +108,7 @@ void add_new_trial(CLI::App& app, Outcome& /*outcome*/) {
       ->type_name("FILE");
   add_json_option(*command, options->json);
   command->footer(
-      "Examples:\n  plumbline new-trial trials/steps_on_the_knee\n"
+      "Example:\n  plumbline new-trial trials/steps_on_the_knee\n"
       "  plumbline new-trial trials/swing --from logs/swing.csv --model model.yaml");
   command->callback([options] { run(*options); });
 }
