@@ -36,7 +36,6 @@ struct Estimate {
       0.0;  ///< gauss_newton: squared residuals of the train windows and of what is known beforehand
   int iterations = 0;
   bool converged = false;  ///< more iterations would gain nothing
-  bool stuck = false;      ///< the slopes promise much, but no step keeps it
 };
 
 struct EstimateOptions {

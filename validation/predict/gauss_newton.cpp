@@ -196,7 +196,6 @@ class Search {
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
     result.iterations = iterations;
     result.converged = at_end;
-    result.stuck = stuck_;
     return result;
   }
 
@@ -213,7 +212,6 @@ class Search {
     }
   }
 
-  static constexpr double kMuch = 0.1;  // of the cost, promised by the parameters
   static constexpr int kSlow = 3;  // steps in a row that gain next to nothing: what is promised is not there
 
   /// False where no step would help, by what it promises or by trying.
@@ -234,7 +232,6 @@ class Search {
         return true;
       }
       if (!can_damp || !damping_.after_failure(times)) {
-        stuck_ = promise.parameters > kMuch;
         return false;
       }
     }
@@ -309,7 +306,6 @@ class Search {
   Point here_;
   std::vector<Reduced> reduced_;
   Damping damping_;
-  bool stuck_ = false;
 };
 
 Estimate search(PredictorPool& pool, const std::vector<FreeParameter>& parameters, const Point& from,
