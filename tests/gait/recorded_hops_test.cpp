@@ -9,10 +9,12 @@
 #include "simulator/effects/catalogue.h"
 #include "simulator/trace/error.h"
 #include "tests/gait/mabel_hops.h"
+#include "tests/trace/temporary_folder.h"
 #include "validation/compare/compare.h"
 #include "validation/predict/estimate.h"
 #include "validation/predict/reach.h"
 #include "validation/predict/states_by_parts.h"
+#include "validation/trial/write_trial.h"
 
 namespace plumbline::validation {
 namespace {
@@ -173,6 +175,22 @@ TEST_F(RecordedHops, SlopesThroughTouchdownAndStopAgreeWithDifferences) {
     const Eigen::VectorXd along = lin.Jx.leftCols(up.size()) * up;
     EXPECT_LT((along - slope).norm(), 0.5 * slope.norm());
   });
+}
+
+// A platform that the robot ran over is part of its trial: a diagnosis that did not know it would blame
+// physics.
+TEST_F(RecordedHops, KeepThePlatformThatTheyRanOver) {
+  run::LoadedScenario loaded = hopping(model_);
+  loaded.scenario.terrain = contact::Terrain(0.0, {{-9.0, -0.2, 0.02}});
+  const Trial trial = recorded_hops(loaded, 2);
+  const test::TemporaryFolder folder;
+  write_trial(trial, model_, folder.path("hops"));
+  const Trial read = read_trial(folder.path("hops"), model_);
+  ASSERT_EQ(read.terrain.platforms().size(), 1U);
+  EXPECT_DOUBLE_EQ(read.terrain.height_at(-1.0), 0.02);
+  EXPECT_EQ(read.terrain.height_at(0.0), 0.0);
+  Predictor predictor(model_, read, {});
+  EXPECT_DOUBLE_EQ(predictor.plant().terrain().height_at(-1.0), 0.02);
 }
 
 TEST_F(RecordedHops, OfAnEmptyRecordAreRefused) {

@@ -142,7 +142,8 @@ Scene from_trial(const Options& options) {
   scene.model = model::read_model(file, model::known_effects());
   const validation::Trial trial = validation::read_trial(options.trial, scene.model, {options.data_folder});
   check_not_an_input(options.out, {trial.data_file, trial.file});
-  scene.plant = std::make_unique<model::Plant>(scene.model, trial.locks, terrain_of(options.platforms));
+  scene.plant = std::make_unique<model::Plant>(
+      scene.model, trial.locks, options.platforms.empty() ? trial.terrain : terrain_of(options.platforms));
   const validation::TrialMotion motion =
       validation::trial_motion(scene.model, trial, {options.whole ? 0.0 : options.window, &stop_flag()});
   scene.motion = {motion.time, motion.predicted, motion.foot_forces, {}};

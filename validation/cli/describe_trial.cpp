@@ -50,6 +50,9 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
     fmt::print("Locked: {} at {:g} {}\n", lock.at, lock.value,
                model::position_unit(model::is_angular(model, lock.at)));
   }
+  for (const contact::Platform& platform : trial.terrain.platforms()) {
+    fmt::print("Platform: {:g} to {:g} m, {:g} m high\n", platform.from, platform.to, platform.height);
+  }
   for (const validation::Controller& controller : trial.controllers) {
     fmt::print("Controller: {} on {}, from {}\n", controller.kind, controller.motor, controller.sensor);
   }

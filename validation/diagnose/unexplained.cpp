@@ -150,7 +150,7 @@ void add_plates(const Stage& stage, const Data& data, PredictorPool& pool, int t
   if (selection.samples.size() < kFewest) {
     return;
   }
-  const model::Plant plant(pool.model(), trial.locks);
+  const model::Plant plant(pool.model(), trial.locks, trial.terrain);
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     if (!is_plate(trial.measured[c])) {
       continue;

@@ -215,7 +215,7 @@ double NeededForce::error_percent() const {
 InverseModel inverse_model(const model::Model& model, const Trial& trial,
                            const InverseModelOptions& options) {
   InverseModel result;
-  model::Plant plant(as_recorded(model, trial), trial.locks);
+  model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
   const Eigen::MatrixXd map = motor_map(plant);
   const std::vector<int> moving = moving_motors(map);
   result.not_available = no_inverse(plant, moving, trial);
@@ -236,7 +236,7 @@ InverseModel inverse_model(const model::Model& model, const Trial& trial,
   }
   const Motion motion = differentiated(std::move(z), trial.period);
   const Eigen::MatrixXd recorded = recorded_commands(plant, trial);
-  model::Plant unlimited(without_limits(model), trial.locks);
+  model::Plant unlimited(without_limits(model), trial.locks, trial.terrain);
   Accelerations accelerations(unlimited, moving, recorded);
   Eigen::MatrixXd needed(static_cast<Eigen::Index>(moving.size()), n);
   for (Eigen::Index k = 0; k < n; ++k) {

@@ -33,7 +33,7 @@ void FreeParameter::set(model::Plant& plant, double value) const {
 Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
     : trial_(trial),
       options_(options),
-      plant_(as_recorded(model, trial), trial.locks),
+      plant_(as_recorded(model, trial), trial.locks, trial.terrain),
       from_channels_(plant_, start_observations(plant_, trial)) {
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {

@@ -274,6 +274,7 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
   trial.model_file = file.model_file;
   trial.role = file.role;
   trial.locks = file.locks;
+  trial.terrain = file.terrain;
   trial.configuration = file.configuration;
   trial.events = file.events;
   trial.data_file = data_path(file, options.data_folder);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/terrain.h"
 #include "simulator/model/model.h"
 
 namespace plumbline::validation {
@@ -119,6 +120,7 @@ struct Trial {
   std::vector<Measured> measured;
   std::vector<Command> commands;
   std::vector<Lock> locks;
+  contact::Terrain terrain;  ///< that it ran on; level ground at 0 m unless stated
   std::vector<Controller> controllers;
   std::vector<Start> start;    ///< where windows begin with what no sensor shows
   std::vector<double> events;  ///< times at which windows are cut

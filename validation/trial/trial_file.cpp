@@ -8,6 +8,7 @@
 #include "simulator/model/kinds.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/quantity.h"
+#include "simulator/model/terrain_file.h"
 #include "simulator/model/yaml_chain.h"
 #include "simulator/trace/units.h"
 #include "validation/trial/physical_number.h"
@@ -541,9 +542,11 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   file.folder = fs::path(file.path).parent_path().string();
   const YamlNode root = YamlNode::load(file.path);
   check_format(root, "trial/1");
-  root.allow_keys({"plumbline", "title", "model", "role", "data", "data_folder_env", "columns", "section",
-                   "leave_out", "missing", "time", "clock_shift_uncertainty", "commands", "measured",
-                   "locked", "configuration", "start", "controllers", "events"});
+  root.allow_keys({"plumbline",     "title",           "model",       "role",
+                   "data",          "data_folder_env", "columns",     "section",
+                   "leave_out",     "missing",         "time",        "clock_shift_uncertainty",
+                   "commands",      "measured",        "locked",      "terrain",
+                   "configuration", "start",           "controllers", "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -580,6 +583,9 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   }
   if (const auto locked = root.find("locked")) {
     file.locks = read_locks(*locked, model);
+  }
+  if (const auto terrain = root.find("terrain")) {
+    file.terrain = model::read_terrain(*terrain);
   }
   if (const auto configuration = root.find("configuration")) {
     file.configuration = read_configuration(*configuration, model);

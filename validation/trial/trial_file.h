@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/terrain.h"
 #include "simulator/model/model.h"
 #include "simulator/model/yaml_node.h"
 #include "validation/trial/trial.h"
@@ -81,6 +82,7 @@ struct TrialFile {
   std::vector<CommandUse> commands;
   std::vector<ControllerUse> controllers;
   std::vector<Lock> locks;
+  contact::Terrain terrain;
   std::vector<model::EffectUse> configuration;
   std::vector<Start> start;
   std::vector<double> events;

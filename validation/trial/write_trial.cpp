@@ -59,6 +59,7 @@ class TrialWriter {
     write_commands();
     write_measured();
     write_locks();
+    write_terrain();
     write_configuration();
     write_controllers();
     write_events();
@@ -159,6 +160,24 @@ class TrialWriter {
       quantity(lock.at.c_str(), lock.value, unit_of_place(model_, lock.at), "");
     }
     out_ << YAML::EndMap;
+  }
+
+  void write_terrain() {
+    const contact::Terrain& terrain = trial_.terrain;
+    if (terrain.platforms().empty() && terrain.floor() == 0.0) {
+      return;
+    }
+    out_ << YAML::Key << "terrain" << YAML::Value << YAML::BeginMap;
+    quantity("floor", terrain.floor(), "m", "");
+    out_ << YAML::Key << "platforms" << YAML::Value << YAML::BeginSeq;
+    for (const contact::Platform& platform : terrain.platforms()) {
+      out_ << YAML::BeginMap;
+      quantity("from", platform.from, "m", "");
+      quantity("to", platform.to, "m", "");
+      quantity("height", platform.height, "m", "");
+      out_ << YAML::EndMap;
+    }
+    out_ << YAML::EndSeq << YAML::EndMap;
   }
 
   void write_configuration() {

@@ -19,6 +19,7 @@ const Eigen::VectorXd& values_of(const Table& record, const std::string& name) {
 Trial recorded_run(const model::Model& model, const Table& record, const run::Scenario& scenario) {
   Trial trial;
   trial.title = scenario.title;
+  trial.terrain = scenario.terrain;
   trial.model_file = model.file;
   trial.time = values_of(record, "t");
   if (trial.samples() < 2) {
