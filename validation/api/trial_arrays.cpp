@@ -1,6 +1,7 @@
 #include "validation/api/trial_arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "simulator/model/kinds.h"
@@ -25,6 +26,11 @@ Signal read_channel(const TrialArrays& arrays, const Channel& channel, const std
   if (channel.values.size() != arrays.time.size()) {
     throw InputError(where, std::to_string(channel.values.size()) + " values",
                      std::to_string(arrays.time.size()) + ", as many as there are times");
+  }
+  for (Eigen::Index k = 0; k < channel.values.size(); ++k) {
+    if (!std::isfinite(channel.values[k])) {
+      throw InputError(where, "no finite number at index " + std::to_string(k), "finite numbers");
+    }
   }
   LogFile log;
   log.table.file = arrays.name;
@@ -69,7 +75,7 @@ void add_switch(const TrialArrays& arrays, const Model& model, const Grid& grid,
     }
   }
   trial.switches.push_back(
-      validation::record_of(*model.find_switch(channel.name), channel.name, grid.held(signal.values)));
+      validation::record_of(*model.find_switch(channel.name), "q_" + channel.name, grid.held(signal.values)));
 }
 
 void add_measured(const TrialArrays& arrays, const Model& model, const Grid& grid, Trial& trial) {
@@ -85,7 +91,8 @@ void add_measured(const TrialArrays& arrays, const Model& model, const Grid& gri
     }
     Signal signal =
         read_channel(arrays, channel, model::reading_unit(model, channel.name), "sensor " + channel.name);
-    trial.measured.push_back({channel.name, channel.name, signal.unit, grid.interpolated(signal.values)});
+    trial.measured.push_back(
+        {channel.name, "q_" + channel.name, signal.unit, grid.interpolated(signal.values)});
   }
   if (trial.measured.empty()) {
     throw InputError({arrays.name, 0, "measured"}, "no sensor", "at least one sensor of the model");
@@ -109,7 +116,7 @@ void add_commands(const TrialArrays& arrays, const Model& model, const Grid& gri
                        "a motor of the model" + nearest_names(channel.name, known_motors(model)));
     }
     Signal signal = read_channel(arrays, channel, motor->command_unit, "motor " + channel.name);
-    trial.commands.push_back({channel.name, channel.name, signal.unit, grid.held_mean(signal.values)});
+    trial.commands.push_back({channel.name, "u_" + channel.name, signal.unit, grid.held_mean(signal.values)});
   }
 }
 
