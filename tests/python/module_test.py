@@ -135,14 +135,14 @@ class Work(unittest.TestCase):
         wrong, right = (pl.compare(held_out, model=m, progress=False) for m in (held_out.model, true))
 
         def after(result, seconds):
-            return next(h for h in result.horizons if h["channel"] == "knee" and h["horizon"] == seconds)
+            return next(h for h in result.horizons if h["channel"] == "mLA" and h["horizon"] == seconds)
         self.assertEqual(after(wrong, 0.1)["unit"], "deg")
         self.assertGreater(after(wrong, 0.5)["rms"], 10.0 * after(right, 0.5)["rms"])
         self.assertGreater(after(wrong, 0.5)["windows"], 0)
 
     def test_a_fit_finds_what_was_hidden_and_its_model_carries_it(self):
         model = pl.load_model(f"{PENDULUM}/model.yaml")
-        trial = pl.twin(model, f"{PENDULUM}/experiments/multisine.yaml",
+        trial = pl.twin(model, f"{PENDULUM}/experiments/steps.yaml",
                         hidden=["coulomb@drive:level=0.004"], seed=5)
         start = model.with_effect("coulomb", "drive", trial=trial)
         result = pl.fit(trial, "coulomb@drive:level", model=start, progress=False)
