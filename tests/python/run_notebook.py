@@ -8,6 +8,7 @@ from nbclient import NotebookClient
 
 notebook = nbformat.read(sys.argv[1], as_version=4)
 os.environ["PLUMBLINE_ROOT"] = os.getcwd()
+os.environ.pop("MPLBACKEND", None)  # the kernel draws into the notebook
 NotebookClient(notebook, timeout=300, kernel_name="python3",
                resources={"metadata": {"path": os.path.dirname(sys.argv[1])}}).execute()
 outputs = [o for cell in notebook.cells if cell.cell_type == "code" for o in cell.outputs]
