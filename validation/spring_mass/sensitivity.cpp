@@ -178,6 +178,9 @@ std::vector<PublishedRow> read_published_table(const std::string& file) {
 
 std::string verdict(const Cell& cell, double published) {
   constexpr double half_unit = 0.05 + 1e-9;
+  if (cell.fallen > 0 && !std::isnan(published)) {
+    return "x";
+  }
   if (std::isnan(published)) {
     return "";
   }
