@@ -1,10 +1,7 @@
-# Packages of the npm registry: one version, held to the hash that the registry states for it (`npm view NAME
-# dist.integrity`; there in base64, here in hexadecimal digits). Neither npm nor node is needed.
-#   PLUMBLINE_NPM_REGISTRY  where packages come from
-#   PLUMBLINE_NPM_FOLDER    a folder that is looked into first, for machines without a network: NAME-VERSION.tgz
-if(NOT PLUMBLINE_NPM_REGISTRY)
-  set(PLUMBLINE_NPM_REGISTRY https://registry.npmjs.org)
-endif()
+# Packages by the npm client: one version, held to the SHA-512 that is stated here (in hexadecimal digits; `npm view
+# NAME dist.integrity` states it in base64). Where they come from is the client's business. Nothing of them is run.
+#   PLUMBLINE_NPM_CLIENT  the client; found by itself
+#   PLUMBLINE_NPM_FOLDER  a folder that is looked into first, for machines without a network: NAME-VERSION.tgz
 
 function(_npm_holds file sha512 result)
   set(${result} OFF PARENT_SCOPE)
@@ -13,6 +10,25 @@ function(_npm_holds file sha512 result)
     if(found STREQUAL sha512)
       set(${result} ON PARENT_SCOPE)
     endif()
+  endif()
+endfunction()
+
+# Asks the client for NAME@VERSION; `reason` says in one line why there is none.
+function(_npm_pack name version into reason)
+  if(NOT PLUMBLINE_NPM_CLIENT)
+    find_program(PLUMBLINE_NPM_CLIENT npm)
+  endif()
+  if(NOT PLUMBLINE_NPM_CLIENT)
+    set(${reason} "the npm client is not installed" PARENT_SCOPE)
+    return()
+  endif()
+  execute_process(COMMAND ${PLUMBLINE_NPM_CLIENT} pack ${name}@${version} --ignore-scripts --silent --pack-destination ${into}
+    WORKING_DIRECTORY ${into} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE said TIMEOUT 300)
+  set(${reason} "its SHA-512 is not the expected one" PARENT_SCOPE)
+  if(NOT code EQUAL 0)
+    string(REGEX REPLACE "[\r\n]+" " " said "${said} ${out}")
+    string(STRIP "npm pack ended with ${code} ${said}" said)
+    set(${reason} "${said}" PARENT_SCOPE)
   endif()
 endfunction()
 
@@ -27,26 +43,21 @@ function(npm_package name version sha512 into)
   set(file ${name}-${version}.tgz)
   set(tarball ${PLUMBLINE_NPM_FOLDER}/${file})
   _npm_holds(${tarball} ${sha512} good)
+  set(reason "")
   if(NOT good)
-    set(tarball ${folder}.tgz)
-    set(url ${PLUMBLINE_NPM_REGISTRY}/${name}/-/${file})
-    set(status "0;")
-    foreach(attempt RANGE 1 3)
+    file(MAKE_DIRECTORY ${into})
+    set(tarball ${into}/${file})
+    foreach(attempt RANGE 1 2)
       _npm_holds(${tarball} ${sha512} good)
       if(NOT good)
-        file(DOWNLOAD ${url} ${tarball} STATUS status INACTIVITY_TIMEOUT 30)
+        _npm_pack(${name} ${version} ${into} reason)
       endif()
     endforeach()
     _npm_holds(${tarball} ${sha512} good)
   endif()
   if(NOT good)
-    list(GET status 0 code)
-    list(GET status 1 reason)
-    if(code EQUAL 0)
-      set(reason "its SHA-512 is not the expected one")
-    endif()
     file(REMOVE ${tarball})
-    set(NPM_FAILURE "${url}: ${reason}; put ${file} into a folder and name it with -DPLUMBLINE_NPM_FOLDER=DIR"
+    set(NPM_FAILURE "${name}@${version}: ${reason}; put ${file} into a folder and name it with -DPLUMBLINE_NPM_FOLDER=DIR"
       PARENT_SCOPE)
     return()
   endif()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the README's pictures again (docs/images). Needs PLUMBLINE, the program, or ./plumb build before; Chromium and
-# Node.js, which ./plumb test installs; and once the npm registry.
+# Node.js, which ./plumb test installs; and once the npm client.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)

@@ -9,8 +9,8 @@ trap 'rm -rf -- "$work"' EXIT
 cd -- "$root"
 mkdir -p docs/images
 
-"$program" hop robots/mabel/mabel_planar.yaml robots/mabel/hopping.yaml --hops 6 -o "$work/plane.csv"
-"$program" hop robots/mabel/mabel.yaml robots/mabel/hopping_boom.yaml --hops 4 -o "$work/boom.csv"
+"$program" simulate --scenario robots/mabel/scenarios/hopping.yaml --seconds 4 -o "$work/plane.csv"
+"$program" simulate --scenario robots/mabel/scenarios/hopping_boom.yaml --seconds 3 -o "$work/boom.csv"
 
 draw() { "$program" render --trace "$work/$1.csv" --model "robots/mabel/$2" "${@:4}" -o "docs/images/$3.png"; }
 
@@ -19,5 +19,5 @@ draw plane mabel_planar.yaml hop_strip --from 1.499s --to 1.859s --strip 13 --si
 draw boom mabel.yaml hop_boom --at 1.54s --camera boom --size 800x480
 
 hopper=robots/hopper
-"$program" twin $hopper/hopper.yaml --with ground_stiffness_error@toe:scale=1.1 --experiment $hopper/experiments/bounce.yaml -o "$work/twin"
+"$program" twin --model $hopper/hopper.yaml --with ground_stiffness_error@toe:scale=1.1 --experiment $hopper/experiments/bounce.yaml -o "$work/twin"
 "$program" render "$work/twin/bounce" --at 0.93s --size 720x560 -o docs/images/hopper.png

@@ -26,7 +26,8 @@ struct AddedEffect {
   std::string effect, at;
   effects::Values values;
   bool again = false;  ///< beside one of its kind that the base has there
-  /// One standard deviation of each value, SI, where they were found; NaN: not found, assumed. Empty: none was.
+  /// One standard deviation of each value, SI, where they were found; NaN: not found, assumed. Empty: none
+  /// was.
   effects::Values deviations{};
 };
 struct NewValue {

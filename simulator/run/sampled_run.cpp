@@ -5,8 +5,7 @@ namespace plumbline::run {
 SampledOptions::SampledOptions() {
   integrator.method = integrate::Method::rosenbrock;
   integrator.weight = integrate::Weight::reach;
-  integrator.relative_tolerance = 1e-5;
-  integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-7);
+  integrator.set_tolerance(1e-5);
   integrator.max_steps = 2000;  // in a sample; more is no progress
 }
 

@@ -147,7 +147,7 @@ const std::vector<Robot>& robots() {
        kHopper + "hopper.yaml",
        {kHopper + "experiments/bounce.yaml", kHopper + "experiments/steps.yaml"},
        ""},
-      {"mabel", kMabel + "mabel_planar.yaml", {}, kMabel + "hopping.yaml"},
+      {"mabel", kMabel + "mabel_planar.yaml", {}, kMabel + "scenarios/hopping.yaml"},
       {"cart",
        kCart + "model.yaml",
        {kCart + "experiments/noise.yaml", kCart + "experiments/pulses.yaml",

@@ -25,7 +25,7 @@ struct Robot {
   std::string name;
   std::string model;
   std::vector<std::string> experiments;
-  std::string hopping;  ///< in place of experiments: a controller under which it hops, from drawn starts
+  std::string scenario;  ///< in place of experiments: a controller under which it hops, from drawn starts
 };
 
 /// One effect at one place. `parameters` reads "name=value,name=value" in SI units of the place. A value is
@@ -65,9 +65,8 @@ const std::vector<Row>& hopper_foreign_rows();
 using Pair = std::pair<std::string, std::string>;
 const std::vector<Pair>& leg_bench_pairs();
 
-/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case, and
-/// the sealed one, which is for releases). Throws
-/// std::invalid_argument for another name.
+/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case,
+/// and the sealed one, which is for releases). Throws std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);
 
 /// All cases in the order of the tables.

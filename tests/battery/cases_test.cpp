@@ -109,8 +109,8 @@ void check_cases(const std::map<std::string, model::Model>& models, Checks& chec
 
 void check_experiments(const std::map<std::string, model::Model>& models, Checks& checks) {
   for (const Robot& robot : robots()) {
-    if (!robot.hopping.empty()) {
-      checks.expect(std::filesystem::exists(in_root(robot.hopping)), robot.name + " lacks its controller");
+    if (!robot.scenario.empty()) {
+      checks.expect(std::filesystem::exists(in_root(robot.scenario)), robot.name + " lacks its scenario");
       continue;
     }
     bool train = false;

@@ -79,7 +79,8 @@ void show_bare(const Result& result) {
 }
 
 void show(const Result& result, const Inputs& inputs) {
-  inputs.run.bare_only ? show_bare(result) : fmt::print("{}\n", table_line(result));
+  inputs.run.bare_only || !inputs.run.write.empty() ? show_bare(result)
+                                                    : fmt::print("{}\n", table_line(result));
   if (inputs.explain) {
     fmt::print("{}", explanation(result));
   }
@@ -123,7 +124,7 @@ int run(const Inputs& inputs) {
     }
     return 0;
   }
-  if (!inputs.run.bare_only) {
+  if (!inputs.run.bare_only && inputs.run.write.empty()) {
     fmt::print("{}\n", table_head());
   }
   const std::vector<Result> results = results_of(cases, inputs);
@@ -135,7 +136,7 @@ int run(const Inputs& inputs) {
   if (!inputs.csv.empty()) {
     write_csv(inputs.csv, results);
   }
-  if (inputs.run.bare_only) {
+  if (inputs.run.bare_only || !inputs.run.write.empty()) {
     return summary.errors == 0 ? 0 : 1;
   }
   fmt::print("\n{}\n{}", confusion_text(results), summary_text(summary, targets));
@@ -189,6 +190,9 @@ int main(int argc, char** argv) {
       "would know them, and constants of shape off the search's grid");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--timing", inputs.run.timing, "what each diagnosis does, and when, to the standard error");
+  app.add_option("--write", inputs.run.write,
+                 "diagnose nothing: write the trials of each case into a folder of its own below DIR")
+      ->type_name("DIR");
   app.add_flag("--list", inputs.list, "only the names of the cases");
   try {
     app.parse(argc, argv);

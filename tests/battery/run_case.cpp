@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <exception>
+#include <filesystem>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -16,6 +17,7 @@
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/play.h"
 #include "validation/compare/compare.h"
+#include "validation/trial/write_trial.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::battery {
@@ -191,13 +193,29 @@ std::vector<validation::Trial> made(const RunOptions& options, const model::Mode
   return std::move(played.trials);
 }
 
+/// FOLDER/pendulum_coulomb@drive_weak/1 and so on, as `plumbline diagnose` reads them.
+void write(const std::string& folder, const Case& one, const model::Model& bare,
+           const std::vector<validation::Trial>& trials) {
+  std::string name = one.name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    std::filesystem::create_directories(folder + "/" + name);
+    validation::write_trial(trials[t], bare, folder + "/" + name + "/" + std::to_string(t + 1));
+  }
+}
+
 void run(const RunOptions& options, Result& result) {
   const Case& one = result.one;
   const model::Model bare =
       model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, model::known_effects());
   Draw draw(one, options.seed);
   std::vector<model::EffectUse> hidden;
-  const validation::Data data(made(options, bare, draw, hidden, result), {});
+  std::vector<validation::Trial> trials = made(options, bare, draw, hidden, result);
+  if (!options.write.empty()) {
+    write(options.write, one, bare, trials);
+    return;
+  }
+  const validation::Data data(std::move(trials), {});
   result.bare = validation::compare(bare, data).scores.held_out;
   if (!options.bare_only) {
     const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};

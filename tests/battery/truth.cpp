@@ -1,9 +1,8 @@
 #include "tests/battery/truth.h"
 
 #include "tests/battery/foreign_laws.h"
-#include "validation/hopping/hop_statistics.h"
-#include "validation/hopping/hopping_file.h"
-#include "validation/hopping/recorded_trial.h"
+#include "validation/gait/gait_run.h"
+#include "validation/twin/recorded_run.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::battery {
@@ -51,21 +50,24 @@ std::vector<Trial> experiments_of(const Case& one, const model::Model& bare, con
 
 /// A run to fit and one to judge by.
 std::vector<Trial> hops_of(const Case& one, const Truth& truth, Draw& draw, const RunOptions& run) {
-  const controllers::HoppingConfig config = validation::read_hopping(in_root(robot_of(one).hopping));
-  const std::vector<validation::HopStart> starts = validation::draw_starts(2, draw.seed());
-  validation::HopOptions options;
-  options.hops = kHops;
-  options.trace = true;
-  options.integrator.absolute_tolerance *= kTwinTolerance / options.integrator.relative_tolerance;
-  options.integrator.relative_tolerance = kTwinTolerance;
+  run::LoadedScenario loaded = run::read_scenario(in_root(robot_of(one).scenario));
+  loaded.model = truth.robot;
+  const std::vector<run::LoadedScenario> starts = validation::from_starts(loaded, 2, draw.seed());
+  validation::GaitView view;
+  view.gait = *validation::read_gait(loaded);
+  validation::GaitOptions options;
+  options.enough = kHops;
+  options.run.trace = true;
+  options.run.integrator.set_tolerance(kTwinTolerance);
   std::vector<Trial> trials;
   for (const Role role : {Role::train, Role::held_out}) {
     if (run.bare_only && role == Role::train) {
       continue;
     }
-    const validation::HopStart& start = starts[role == Role::train ? 0 : 1];
-    const validation::HopRun hops = validation::hop(truth.robot, config, start, options);
-    trials.push_back(validation::recorded_trial(truth.robot, hops.trace, draw.seed()));
+    options.run.sensors.seed = draw.seed();
+    const run::LoadedScenario& start = starts[role == Role::train ? 0 : 1];
+    const validation::GaitRun hops = validation::run_gait(start, view, options);
+    trials.push_back(validation::recorded_run(truth.robot, hops.run.record, start.scenario));
     trials.back().role = role;
     trials.back().name = trials.back().file = "hops, " + to_string(role);
   }
@@ -90,8 +92,8 @@ Truth truth_of(const Case& one, const model::Model& bare, Draw& draw, const RunO
 
 std::vector<Trial> trials_of(const Case& one, const model::Model& bare, const Truth& truth, Draw& draw,
                              const RunOptions& run) {
-  return robot_of(one).hopping.empty() ? experiments_of(one, bare, truth, draw, run)
-                                       : hops_of(one, truth, draw, run);
+  return robot_of(one).scenario.empty() ? experiments_of(one, bare, truth, draw, run)
+                                        : hops_of(one, truth, draw, run);
 }
 
 }  // namespace plumbline::battery

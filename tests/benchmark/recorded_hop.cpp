@@ -3,10 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "simulator/model/known_effects.h"
-#include "simulator/model/robot_file.h"
-#include "validation/hopping/hop_run.h"
-#include "validation/hopping/hopping_file.h"
+#include "tests/gait/mabel_hops.h"
 
 namespace plumbline::benchmarks {
 namespace {
@@ -15,15 +12,10 @@ constexpr double kBeforeLanding = 0.05;  // s, in the air
 constexpr int kHop = 1;                  // the second: the first landing is that of the drop
 
 /// The commands of a run's samples, by the model's motors.
-Eigen::MatrixXd commands_of(const validation::HopRun& run, const model::Model& model) {
-  Eigen::MatrixXd commands(static_cast<Eigen::Index>(model.motors.size()),
-                           run.trace.columns[0].values.size());
+Eigen::MatrixXd commands_of(const Table& trace, const model::Model& model) {
+  Eigen::MatrixXd commands(static_cast<Eigen::Index>(model.motors.size()), trace.rows());
   for (std::size_t m = 0; m < model.motors.size(); ++m) {
-    for (const Column& column : run.trace.columns) {
-      if (column.name == "u_" + model.motors[m].name) {
-        commands.row(static_cast<Eigen::Index>(m)) = column.values.transpose();
-      }
-    }
+    commands.row(static_cast<Eigen::Index>(m)) = trace.find("u_" + model.motors[m].name)->values.transpose();
   }
   return commands;
 }
@@ -31,31 +23,27 @@ Eigen::MatrixXd commands_of(const validation::HopRun& run, const model::Model& m
 }  // namespace
 
 Replay record_hop(const std::string& model_file) {
-  const std::string folder = PLUMBLINE_ROOT "/robots/mabel/";
   Replay hop;
-  hop.model = model::read_model(folder + model_file, model::known_effects());
-  const controllers::HoppingConfig config = validation::read_hopping(folder + "hopping.yaml");
-  validation::HopOptions options;
-  options.integrator.relative_tolerance = 1e-6;
-  options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-8);
-  options.hops = kHop + 2;
-  options.trace = true;
-  const validation::HopRun run = validation::hop(hop.model, config, {}, options);
-  if (run.fell) {
-    throw std::runtime_error(model_file + ": does not hop: " + run.end);
+  hop.model = validation::mabel(model_file);
+  const run::LoadedScenario loaded = validation::hopping(hop.model);
+  const validation::GaitRun run = validation::hops_of(loaded, kHop + 2, 1e-6);
+  if (run.run.fell) {
+    throw std::runtime_error(model_file + ": does not hop: " + run.run.end);
   }
+  const double period = loaded.controller->period;
   const auto sample = [&](std::size_t h) {
-    return static_cast<Eigen::Index>(std::llround((run.hops.at(h).landing - kBeforeLanding) / config.period));
+    return static_cast<Eigen::Index>(std::llround((run.cycles.at(h).end - kBeforeLanding) / period));
   };
-  // hops[h] ends at its landing.
   const Eigen::Index first = sample(kHop - 1);
-  const Eigen::MatrixXd all = commands_of(run, hop.model);
-  hop.period = config.period;
+  const Eigen::MatrixXd all = commands_of(run.run.trace, hop.model);
+  hop.period = period;
   model::Plant plant(hop.model, {});
+  integrate::Options integrator = run::SampledOptions().integrator;
+  integrator.set_tolerance(1e-6);
   Replay before = hop;
-  before.start = validation::start_state(plant, config, {});
+  before.start = run::state_at_start(loaded.model, loaded.scenario);
   before.commands = all.leftCols(first);
-  hop.start = simulate(before, plant, options.integrator).states.rightCols(1);
+  hop.start = simulate(before, plant, integrator).states.rightCols(1);
   hop.commands = all.middleCols(first, sample(kHop) - first);
   return hop;
 }

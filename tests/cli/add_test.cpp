@@ -73,7 +73,7 @@ TEST_F(Add, ThenFitFindsWhatWasHidden) {
   EXPECT_LT(fit["after"]["train"].get<double>(), 1.2);
   EXPECT_LT(fit["after"]["held_out"].get<double>(), 1.2);
   EXPECT_GT(fit["before"]["held_out"].get<double>(), 20.0);
-  EXPECT_THAT(outcome.out, HasSubstr("The data tell every one of these parameters."));
+  EXPECT_THAT(outcome.out, HasSubstr("All of these parameters are identifiable from these data."));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("More is missing than values")));
   // The overlay is the fitted model: value, uncertainty, source.
   const json values = effect_of("fitted.yaml")["values"];
@@ -105,7 +105,7 @@ TEST_F(Add, FitSaysWhatTheDataCannotTell) {
     }
     EXPECT_THAT(kinds, testing::Contains("tied")) << parameter;
   }
-  EXPECT_THAT(outcome.out, HasSubstr("What these data cannot tell:"));
+  EXPECT_THAT(outcome.out, HasSubstr("Not identifiable from these data, or hardly:"));
   EXPECT_THAT(outcome.out, HasSubstr("it cannot be told from viscous@shoulder:damping"));
 }
 

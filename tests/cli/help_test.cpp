@@ -58,7 +58,7 @@ TEST_P(Help, ExampleUsesOnlyOptionsThatExist) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("effects", "check", "simulate", "compare", "fit", "diagnose", "add",
-                                         "ladder", "suggest", "report", "new-trial", "twin", "hop",
+                                         "ladder", "suggest", "report", "new-trial", "twin", "tune",
                                          "validate", "render"),
                          name_of);
 
@@ -66,7 +66,7 @@ TEST(Program, ListsEveryCommand) {
   const Outcome outcome = run({"--help"}, "/");
   EXPECT_EQ(outcome.status, 0);
   for (const char* command : {"effects", "check", "simulate", "compare", "fit", "diagnose", "add", "ladder",
-                              "suggest", "report", "new-trial", "twin", "hop", "validate", "render"}) {
+                              "suggest", "report", "new-trial", "twin", "tune", "validate", "render"}) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  ") + command + " "));
   }
 }

@@ -14,7 +14,7 @@ class Interrupt : public RobotFolder {
   /// long/steps: so long that nothing can be done with it in a moment.
   void make_long_trial() const {
     replace("experiments/steps.yaml", "duration: {value: 2, unit: s}", "duration: {value: 40, unit: s}");
-    succeed({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008", "--experiment",
+    succeed({"twin", "--model", "robot/model.yaml", "--with", "coulomb@drive:level=0.008", "--experiment",
              "experiments/steps.yaml", "--out", "long"});
   }
 
@@ -48,7 +48,7 @@ TEST_F(Interrupt, DiagnoseKeepsWhatIsFinished) {
   EXPECT_EQ(json["interrupted"], true);
   ASSERT_GE(json["ladder"].size(), 1U);
   EXPECT_THAT(keys(json["ladder"][0]),
-              testing::UnorderedElementsAre("name", "length", "train", "held_out", "foretold"));
+              testing::UnorderedElementsAre("name", "length", "train", "held_out", "predictive"));
   EXPECT_EQ(json["ladder"][0]["name"], "as given");
   succeed({"check", "found.yaml"});
 }

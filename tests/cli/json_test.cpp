@@ -93,7 +93,10 @@ TEST_F(Json, CheckOfATrial) {
 
 TEST_F(Json, Compare) {
   const json compared = from({"compare", "trials/steps", "trials/swing"});
-  EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows", "phases"));
+  EXPECT_THAT(keys(compared),
+              UnorderedElementsAre("train", "held_out", "channels", "windows", "phases", "horizons"));
+  EXPECT_THAT(keys(compared["horizons"][0]),
+              UnorderedElementsAre("trial", "channel", "role", "unit", "horizon", "rms", "windows", "lost"));
   ASSERT_EQ(compared["channels"].size(), 4U);
   EXPECT_THAT(keys(compared["channels"][0]),
               UnorderedElementsAre("trial", "name", "unit", "role", "rms", "floor", "ratio"));
@@ -156,8 +159,8 @@ TEST_F(Json, Add) {
 TEST_F(Json, NewTrialAndTwin) {
   EXPECT_EQ(from({"new-trial", "mine"}),
             json({{"folder", "mine"}, {"files", {"trial.yaml", "data.csv", "README.md"}}}));
-  const json twin =
-      from({"twin", "robot/model.yaml", "--experiment", "experiments/steps.yaml", "--out", "again"});
+  const json twin = from(
+      {"twin", "--model", "robot/model.yaml", "--experiment", "experiments/steps.yaml", "--out", "again"});
   EXPECT_EQ(twin, json({{"trials", {"again/steps"}}}));
 }
 

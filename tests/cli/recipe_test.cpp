@@ -28,9 +28,9 @@ TEST_F(RecipeCommand, PrintsTrueAndRecoveredValues) {
   EXPECT_THAT(keys(all), UnorderedElementsAre("recipe", "title", "confidence", "covered", "known",
                                               "targets_met", "targets", "steps"));
   const json step = all["steps"][0];
-  EXPECT_THAT(keys(step),
-              UnorderedElementsAre("step", "title", "source", "method", "carried", "before", "after", "used",
-                                   "converged", "seconds", "findings", "correlations", "untold", "weak"));
+  EXPECT_THAT(keys(step), UnorderedElementsAre("step", "title", "source", "method", "carried", "before",
+                                               "after", "used", "converged", "seconds", "findings",
+                                               "correlations", "not_identifiable", "weak"));
   const json found = step["findings"][0];
   EXPECT_THAT(keys(found), UnorderedElementsAre("unknown", "unit", "true", "recovered", "standard_deviation",
                                                 "interval", "seen", "covered", "target", "met"));

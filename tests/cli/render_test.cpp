@@ -87,8 +87,8 @@ TEST_F(Render, AVideoHasAsManyFramesAsItsTimeAsksFor) {
 // A robot with a foot: near the ground a prediction has more points than the recording has samples.
 TEST_F(Render, ATrialWithContact) {
   const std::string hopper = PLUMBLINE_ROOT "/robots/hopper/";
-  succeed({"twin", hopper + "hopper.yaml", "--with", "ground_stiffness_error@toe:scale=0.3", "--experiment",
-           hopper + "experiments/bounce.yaml", "-o", "twin"});
+  succeed({"twin", "--model", hopper + "hopper.yaml", "--with", "ground_stiffness_error@toe:scale=0.3",
+           "--experiment", hopper + "experiments/bounce.yaml", "-o", "twin"});
   const Outcome outcome = succeed(
       {"render", "twin/bounce", "--measured", "--at", "400ms", "--size", "320x180", "-o", "windows.png"});
   EXPECT_EQ(outcome.err, "");

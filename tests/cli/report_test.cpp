@@ -29,9 +29,10 @@ TEST_F(Report, ComparesAsCompareDoes) {
   const json report = data_of("r.html");
   const json compared = read_json("c.json");
   EXPECT_THAT(keys(report), UnorderedElementsAre("format", "robot", "model", "drawn", "ladder", "trials",
-                                                 "diagnosis", "whole_trials", "published", "unexplained",
-                                                 "estimates", "values", "repeat"));
+                                                 "diagnosis", "whole_trials", "published", "horizons",
+                                                 "unexplained", "estimates", "values", "repeat"));
   EXPECT_TRUE(report["diagnosis"].is_null());
+  EXPECT_EQ(report["horizons"][0], compared["horizons"]);
   ASSERT_EQ(report["ladder"].size(), 1U);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["train"], compared["train"]);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["held_out"], compared["held_out"]);

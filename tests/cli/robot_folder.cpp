@@ -50,7 +50,7 @@ class Original {
                           "{kind: multisine, frequencies: [0.7 Hz, 2.3 Hz], amplitudes: [0.4, 0.6], phases: "
                           "[0 deg, 130 deg], unit: A}"));
     const Outcome made =
-        run({"twin", "robot/model.yaml", "--with", "coulomb@drive:level=0.008,smoothing_speed=0.5",
+        run({"twin", "--model", "robot/model.yaml", "--with", "coulomb@drive:level=0.008,smoothing_speed=0.5",
              "--experiment", "experiments/chirp.yaml", "experiments/steps.yaml", "experiments/swing.yaml",
              "--out", "trials"},
             path_.string());

@@ -138,7 +138,7 @@ TEST_F(SimulateLeg, EnergyBalancesWithAStretchedCable) {
 }
 
 TEST_F(SimulateLeg, ALockedMotorStaysWhereItIs) {
-  succeed({"twin", leg, "--experiment", experiment, "--out", "leg"});
+  succeed({"twin", "--model", leg, "--experiment", experiment, "--out", "leg"});
   succeed({"check", "leg/siso_mLA", "--json", "c.json"});
   const nlohmann::json checked = read_json("c.json");
   EXPECT_EQ(checked["independent_coordinates"], 1);

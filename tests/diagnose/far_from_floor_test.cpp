@@ -41,8 +41,8 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
                                  "coulomb@mLS:level=0.08", "viscous@mLS:damping=0.006"})
                         .thinned(8);
   const DiagnoseOptions options;
-  const Tried tried = try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data,
-                                     options, silent);
+  const Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
   const std::optional<Group> group = friction_everywhere(tried, data, options, silent);
   ASSERT_TRUE(group);
   std::vector<std::string> labels;
@@ -57,8 +57,8 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
 TEST(FrictionEverywhere, IsNothingWhereOneIsEnough) {
   const Data data = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
   const DiagnoseOptions options;
-  const Tried tried = try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data,
-                                     options, silent);
+  const Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
   EXPECT_FALSE(friction_everywhere(tried, data, options, silent));
 }
 
@@ -84,8 +84,10 @@ TEST(LostWindows, AreNamedAndTheOthersStay) {
   EXPECT_EQ(without_lost(bench(), data, lost).windows.size(), data.windows.size());
   EXPECT_TRUE(lost.empty());
   Data broken = data;
-  broken.trials.front().commands.front().values.segment(broken.windows[1].first, 5).setConstant(
-      std::numeric_limits<double>::quiet_NaN());
+  broken.trials.front()
+      .commands.front()
+      .values.segment(broken.windows[1].first, 5)
+      .setConstant(std::numeric_limits<double>::quiet_NaN());
   const Data kept = without_lost(bench(), broken, lost);
   ASSERT_EQ(lost.size(), 1U);
   EXPECT_EQ(lost.front().trial, "siso_mLA");

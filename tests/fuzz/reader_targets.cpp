@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "simulator/model/robot_reader.h"
+#include "simulator/run/controller_setup.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
 #include "simulator/trace/units.h"
 #include "tests/model/robot_texts.h"
 #include "tests/model/test_laws.h"
 #include "tests/trial/texts.h"
-#include "validation/hopping/hopping_file.h"
-#include "validation/hopping/published.h"
 #include "validation/predict/kept_results.h"
+#include "validation/published/published.h"
 #include "validation/trial/trial.h"
 #include "validation/twin/experiment.h"
 
@@ -179,11 +179,11 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
     return incredible(validation::read_experiment(path, robot));
   };
   const auto read_controller = [](const std::string& path) {
-    validation::read_hopping(path);
+    run::read_controller(path);
     return std::string();
   };
   const auto read_published = [](const std::string& path) {
-    return std::string(validation::read_published(path).quantities.empty() ? "no quantities" : "");
+    return std::string(validation::read_published(path).gaits.empty() ? "no gaits" : "");
   };
   const auto read_results = [](const std::string& path) {
     const validation::KeptResults results(path, "inputs");
@@ -199,7 +199,7 @@ std::vector<ReaderTarget> reader_targets(const std::string& folder) {
       {"trial", {validation::good_trial()}, from_file("trial.yaml", read_trial)},
       {"experiment", {validation::good_experiment()}, from_file("experiment.yaml", read_experiment)},
       {"controller",
-       {file_text(PLUMBLINE_ROOT "/robots/mabel/hopping.yaml")},
+       {file_text(PLUMBLINE_ROOT "/robots/mabel/controllers/hopping.yaml")},
        from_file("controller.yaml", read_controller)},
       {"published",
        {file_text(PLUMBLINE_ROOT "/robots/mabel/published.yaml")},

@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # What each part may include besides itself. Parts not named here may not exist.
 set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
-    simulator/run simulator/render contact controllers validation tests)
+    simulator/run simulator/render contact controllers validation python tests)
 set(may_simulator/effects)
 set(may_simulator/trace)
 set(may_simulator/sensing)
@@ -18,6 +18,7 @@ set(may_simulator/render simulator/model simulator/trace)
 set(may_controllers)
 set(may_validation simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
     simulator/run simulator/render contact controllers)
+set(may_python ${may_validation} validation)
 set(may_tests ${parts})
 
 # External headers that only some parts may see.
@@ -55,7 +56,7 @@ endfunction()
 function(check_own_include file line part included)
   part_of("${included}" target)
   if(NOT target)
-    if(included MATCHES "^(simulator|contact|controllers|validation|tests|robots)/" OR NOT included MATCHES "/"
+    if(included MATCHES "^(simulator|contact|controllers|validation|python|tests|robots)/" OR NOT included MATCHES "/"
        OR included MATCHES "\\.\\./")
       complain(${file} ${line} "includes \"${included}\", expected a path from the project's root into a known part")
     endif()
@@ -118,7 +119,7 @@ if(NOT IS_DIRECTORY "${ROOT}")
   message(FATAL_ERROR "ROOT: found '${ROOT}', expected the project's folder")
 endif()
 set(files)
-foreach(top simulator contact controllers validation tests)
+foreach(top simulator contact controllers validation python tests)
   file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${top}/*.h" "${ROOT}/${top}/*.cpp" "${ROOT}/${top}/*.hpp"
        "${ROOT}/${top}/*.cc" "${ROOT}/${top}/*.inl")
   list(APPEND files ${found})

@@ -1,11 +1,13 @@
 // The recovered measurements of MABEL's hops hold the kinematics: the foot of a loaded leg stays in place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -37,7 +39,7 @@ Columns read(const std::string& name) {
 }
 
 struct Foot {
-  double deviation = 0.0;        // of its horizontal place, m
+  double deviation = 0.0;               // of its horizontal place, m
   double lowest = 1.0, highest = -1.0;  // m
 };
 
@@ -65,16 +67,17 @@ Foot foot_between(const Columns& of, const std::string& side, double from, doubl
   return foot;
 }
 
-// Stances of both hops: 21.000 to 21.13 s, 21.43 to 21.80 s, 22.11 to 22.30 s. The authors' simulated foot moves
-// in its ground and shows the boom's roll (5 mm); the measured one stands 6 to 33 mm above the floor, which
-// is the zero errors of a leg of a metre, and moves by some millimetres.
+// Stances of both hops: 21.000 to 21.13 s, 21.43 to 21.80 s, 22.11 to 22.30 s. The authors' simulated foot
+// moves in its ground and shows the boom's roll (5 mm); the measured one stands 6 to 33 mm above the floor,
+// which is the zero errors of a leg of a metre, and moves by some millimetres.
 TEST(MeasuredHops, FeetOfLoadedLegsStayInPlace) {
   const Columns measured = read("hops.csv");
   const Columns simulated = read("hops_authors_simulation.csv");
   ASSERT_EQ(measured.at("t").size(), 1301U);
   ASSERT_EQ(simulated.at("t").size(), 1301U);
   for (const std::string side : {"left", "right"}) {
-    for (const auto& [from, to] : std::vector<std::pair<double, double>>{{21.0, 21.13}, {21.43, 21.8}, {22.11, 22.3}}) {
+    for (const auto& [from, to] :
+         std::vector<std::pair<double, double>>{{21.0, 21.13}, {21.43, 21.8}, {22.11, 22.3}}) {
       const Foot robot = foot_between(measured, side, from, to);
       EXPECT_LT(robot.deviation, 4.4e-3) << side << " from " << from;
       EXPECT_GT(robot.lowest, 0.005) << side << " from " << from;
@@ -86,8 +89,8 @@ TEST(MeasuredHops, FeetOfLoadedLegsStayInPlace) {
   }
 }
 
-// Positive torque of a leg-angle motor turns the motor forward: q_mLA grows, the leg angle falls (Park et al.,
-// equation 6). In flight between the hops the sign shows in the motor's acceleration.
+// Positive torque of a leg-angle motor turns the motor forward: q_mLA grows, the leg angle falls (Park et
+// al., equation 6). In flight between the hops the sign shows in the motor's acceleration.
 TEST(MeasuredHops, TorqueAndMotionAgreeInSign) {
   const Columns of = read("hops_authors_simulation.csv");
   for (const std::string motor : {"mLA_left", "mLA_right", "mLS_left", "mLS_right"}) {

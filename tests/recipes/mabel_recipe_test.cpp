@@ -92,9 +92,9 @@ TEST_F(MabelRecipe, RecoversTheGroundFromLandings) {
 // Where a switch shows a landing its instant is known, and no window begins in it.
 TEST_F(MabelRecipe, HopsHaveTheirContactSwitches) {
   const Step& step = recipe_.steps.back();
-  ASSERT_TRUE(step.hops);
+  ASSERT_TRUE(step.runs);
   const std::vector<Trial> trials = twin_trials(recipe_, step, result_.truth, 1, nullptr);
-  ASSERT_EQ(trials.size(), static_cast<std::size_t>(step.hops->starts));
+  ASSERT_EQ(trials.size(), static_cast<std::size_t>(step.runs->starts));
   for (const Trial& trial : trials) {
     EXPECT_EQ(trial.switches.size(), 2u);
     EXPECT_GE(trial.contact_events.size(), 1u) << "a foot lands; the other one may be later";

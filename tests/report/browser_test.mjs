@@ -45,6 +45,17 @@ const tests = {
     assert.equal(rows[0].length, 3);  // trials, one motor
     for (const c of [0, 1, 2]) assert.ok(rows[rows.length - 1][c] < 0.8 * rows[0][c], `${rows}`);
   },
+  async "the error over the horizon falls with the effect"(page) {
+    const rows = () => page.locator("#horizons tbody tr").evaluateAll((all) => all.map((row) => [...row.querySelectorAll("td.number")].map((cell) => Number(cell.innerText))));
+    await page.keyboard.press("b");
+    const one = await rows();
+    await page.keyboard.press("b");
+    const other = await rows();
+    assert.ok(one.length > 0 && one.length === other.length);
+    const sum = (table) => table.flat().filter((value) => Number.isFinite(value)).reduce((a, b) => a + b, 0);
+    assert.ok(Math.max(sum(one), sum(other)) > 2 * Math.min(sum(one), sum(other)));
+  },
+
   async "dragging zooms all channels, a double click shows the whole trial"(page) {
     const [from, to] = await range(page);
     await page.locator("#time").evaluate((section) => section.scrollIntoView());

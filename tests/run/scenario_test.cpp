@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulator/run/run_scenario.h"
+#include "simulator/trace/table.h"
 #include "tests/run/files.h"
 
 namespace plumbline::run {
@@ -48,6 +49,26 @@ TEST_P(Hopping, ItLandsAndCanBeRepeated) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Hopping, testing::Values("hopping.yaml", "hopping_boom.yaml"));
+
+// Samples of the trace that `plumbline hop` wrote before controllers were libraries (hopping_reference.csv);
+// on the machine that wrote it all columns of six hops are the same to the last bit. Another libm may round
+// otherwise.
+TEST(Scenario, HoppingIsAsItWasBeforeControllersWereLibraries) {
+  LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hopping.yaml"));
+  loaded.scenario.longest = 1.0;
+  RunOptions options;
+  options.trace = true;
+  const RunRecord run = run_scenario(loaded.model, loaded.scenario, &*loaded.controller, options);
+  const Table reference = read_table(PLUMBLINE_ROOT "/tests/run/hopping_reference.csv");
+  ASSERT_EQ(reference.rows(), 41);
+  for (const Column& wanted : reference.columns) {
+    const Eigen::VectorXd& found = column(run.trace, wanted.name);
+    for (Eigen::Index k = 0; k < reference.rows(); ++k) {
+      EXPECT_NEAR(found[25 * k], wanted.values[k], 1e-6 * std::max(1.0, std::abs(wanted.values[k])))
+          << wanted.name << " at " << reference.columns[0].values[k] << " s";
+    }
+  }
+}
 
 /// The example in C on the leg's bench: controller and record see the same counts.
 TEST(Scenario, TheControllerSeesWhatIsRecorded) {

@@ -1,63 +1,20 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "simulator/trace/error.h"
+#include "validation/api/adding.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/fit/scales.h"
-#include "validation/twin/twin.h"
+#include "validation/report/model_json.h"
 
 namespace plumbline::cli {
 namespace {
 
-struct Options {
-  std::string effect, at, model, trial, data_folder, out, json;
-  std::vector<std::string> set;
+struct Options : api::Addition {
+  std::string model, trial, data_folder, out, json;
 };
-
-/// The effect with the values that were set; names and bounds are checked.
-model::EffectUse parse(const Options& options, const model::Model& model) {
-  std::string text = options.effect + "@" + options.at + ":";
-  for (std::size_t i = 0; i < options.set.size(); ++i) {
-    text += (i == 0 ? "" : ",") + options.set[i];
-  }
-  return validation::parse_effect(text, model, model::known_effects());
-}
-
-bool is_set(const Options& options, const std::string& parameter) {
-  return std::any_of(options.set.begin(), options.set.end(), [&](const std::string& setting) {
-    return setting.compare(0, parameter.size() + 1, parameter + "=") == 0;
-  });
-}
-
-/// From the motion of a train trial where there is one, otherwise from the model alone.
-effects::Scales scales_for(const Options& options, const model::Model& model, const model::EffectUse& use) {
-  if (!options.trial.empty()) {
-    validation::Trial trial = validation::read_trial(options.trial, model, {options.data_folder});
-    if (trial.role == validation::Role::train) {
-      const validation::Data data({trial}, {});
-      return validation::scales_at(model, use.law, use.at, data);
-    }
-  }
-  return validation::scales_at(model, *use.law, use.at);
-}
-
-/// The start in the middle of the law's grid, in place of what was not set: the null values for most laws.
-void fill_in(const Options& options, const model::Model& model, model::EffectUse& use) {
-  const std::vector<effects::Values> starts = use.law->starts(scales_for(options, model, use));
-  const effects::Values& start = starts[starts.size() / 2];
-  for (std::size_t p = 0; p < use.values.size(); ++p) {
-    const effects::Parameter& parameter = use.law->declaration().parameters[p];
-    if (!is_set(options, parameter.name)) {
-      use.values[p].value = std::clamp(start[p], parameter.lower, parameter.upper);
-    }
-  }
-}
 
 /// Nothing that the overlay would stand on may be replaced by it.
 std::vector<std::string> read_files(const model::Model& model) {
@@ -66,37 +23,14 @@ std::vector<std::string> read_files(const model::Model& model) {
   return files;
 }
 
-std::string unit_of(const model::Model& model, const model::EffectUse& use,
-                    const effects::Parameter& parameter) {
-  return effects::unit_at(parameter.unit, model.place_is_angular(model.resolve(*use.law, use.at), use.at));
-}
-
-nlohmann::json to_json(const model::EffectUse& use, const model::Model& model, const Options& options) {
-  nlohmann::json json{{"file", options.out},
-                      {"base", model.file},
-                      {"effect", options.effect},
-                      {"at", options.at},
-                      {"changes_nothing", use.law->is_null(use.numbers().data())},
-                      {"values", nlohmann::json::array()}};
-  for (std::size_t p = 0; p < use.values.size(); ++p) {
-    const effects::Parameter& parameter = use.law->declaration().parameters[p];
-    json["values"].push_back({{"name", parameter.name},
-                              {"value", json_number(use.values[p].value)},
-                              {"unit", unit_of(model, use, parameter)},
-                              {"set", is_set(options, parameter.name)},
-                              {"structural", parameter.structural}});
-  }
-  return json;
-}
-
 void print(const model::EffectUse& use, const model::Model& model, const Options& options) {
   fmt::print("{}: {} on {}\n\n", options.out, use.label(), model.file);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t p = 0; p < use.values.size(); ++p) {
     const effects::Parameter& parameter = use.law->declaration().parameters[p];
-    rows.push_back({parameter.name, fmt::format("{:g}", use.values[p].value), unit_of(model, use, parameter),
-                    is_set(options, parameter.name) ? "set" : "start",
-                    parameter.structural ? "never fitted" : ""});
+    rows.push_back(
+        {parameter.name, fmt::format("{:g}", use.values[p].value), validation::unit_of(model, use, p),
+         api::is_set(options, parameter.name) ? "set" : "start", parameter.structural ? "never fitted" : ""});
   }
   print_table({"parameter", "value", "unit", "from", ""}, rows);
   fmt::print("\n{}\nFit it: plumbline fit TRIAL... --model {} --free '{}@{}:*'\n",
@@ -111,11 +45,15 @@ void run(const Options& options) {
   const std::string base = options.model.empty() ? validation::model_of_trial(options.trial) : options.model;
   const model::Model model = model::read_model(base, model::known_effects());
   check_not_an_input(options.out, read_files(model));
-  model::EffectUse use = parse(options, model);
-  fill_in(options, model, use);
-  model::write_overlay(options.out, base, {{options.effect, options.at, use.numbers()}}, {},
-                       use.label() + ", added with start values", model::known_effects());
-  write_json(to_json(use, model, options), options.json);
+  std::optional<validation::Trial> trial;
+  if (!options.trial.empty()) {
+    trial = validation::read_trial(options.trial, model, {options.data_folder});
+  }
+  const model::EffectUse use = api::added_effect(options, model, trial);
+  api::save(use, model, options.out);
+  nlohmann::json json = api::to_json(use, model, options);
+  json["file"] = options.out;
+  write_json(json, options.json);
   print(use, model, options);
 }
 

@@ -35,9 +35,9 @@ void run(const Options& options) {
   const effects::Catalogue catalogue = model::known_effects();
   if (!is_trial(options.path)) {
     const model::Model model = model::read_model(options.path, catalogue);
-    const Freedom freedom = freedom_of(model, {});
+    const Freedom freedom = api::freedom_of(model, {});
     const std::vector<MeshOfBody> meshes = meshes_of(model, options.density);
-    nlohmann::json json = to_json(model, freedom);
+    nlohmann::json json = api::to_json(model, freedom);
     json["meshes"] = to_json(meshes);
     write_json(json, options.json);
     print(model, freedom);
@@ -47,9 +47,9 @@ void run(const Options& options) {
   const std::string file = options.model.empty() ? validation::model_of_trial(options.path) : options.model;
   const model::Model model = model::read_model(file, catalogue);
   const validation::Trial trial = validation::read_trial(options.path, model, {options.data_folder});
-  const Freedom freedom = freedom_of(model, trial.locks);
+  const Freedom freedom = api::freedom_of(model, trial.locks);
   validation::check_command_units(model, trial);
-  write_json(to_json(trial, model, freedom), options.json);
+  write_json(api::to_json(trial, model, freedom), options.json);
   print(trial, model, freedom);
 }
 

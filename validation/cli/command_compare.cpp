@@ -1,12 +1,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "validation/api/comparing.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/compare/compare.h"
-#include "validation/report/result_json.h"
 
 namespace plumbline::cli {
 namespace {
@@ -48,6 +48,43 @@ void print_phases(const Comparison& comparison) {
   print_table({"trial", "channel", "phases by", "rms/floor"}, rows);
 }
 
+std::string horizon_text(const validation::HorizonError& error) {
+  return std::isfinite(error.rms) ? fmt::format("{:.3g}", error.rms) : "lost";
+}
+
+/// One row for each channel, one column for each horizon that any of them reaches.
+void print_horizons(const std::vector<validation::HorizonError>& errors) {
+  std::vector<std::string> head{"trial", "role", "channel", "unit"};
+  std::vector<double> horizons;
+  for (const double horizon : validation::usual_horizons()) {
+    const bool any = std::any_of(errors.begin(), errors.end(),
+                                 [&](const validation::HorizonError& e) { return e.horizon == horizon; });
+    if (any) {
+      horizons.push_back(horizon);
+      head.push_back(fmt::format("{:g} s", horizon));
+    }
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::HorizonError& e : errors) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const std::vector<std::string>& one) {
+      return one[0] == e.trial && one[2] == e.channel;
+    });
+    if (row == rows.end()) {
+      rows.push_back({e.trial, to_string(e.role), e.channel, e.unit});
+      rows.back().resize(head.size(), "-");
+      row = rows.end() - 1;
+    }
+    const auto at = std::find(horizons.begin(), horizons.end(), e.horizon) - horizons.begin();
+    (*row)[4 + static_cast<std::size_t>(at)] = horizon_text(e);
+  }
+  if (!horizons.empty()) {
+    fmt::print(
+        "\nError over the prediction horizon: rms so long after the last measurement that the prediction "
+        "knows:\n\n");
+    print_table(head, rows);
+  }
+}
+
 /// What is in none of the errors.
 void print_lost(const std::vector<validation::LostWindow>& lost) {
   constexpr std::size_t kShown = 5;
@@ -57,12 +94,14 @@ void print_lost(const std::vector<validation::LostWindow>& lost) {
   fmt::print("\nLeft out, because the model cannot be integrated there ({} windows):\n\n", lost.size());
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < std::min(kShown, lost.size()); ++i) {
-    rows.push_back({lost[i].trial, fmt::format("{:.2f} to {:.2f} s", lost[i].from, lost[i].to), lost[i].reason});
+    rows.push_back(
+        {lost[i].trial, fmt::format("{:.2f} to {:.2f} s", lost[i].from, lost[i].to), lost[i].reason});
   }
   print_table({"trial", "window", "because"}, rows);
 }
 
-void print(const Comparison& comparison) {
+void print(const api::Compared& compared) {
+  const Comparison& comparison = compared.comparison;
   std::vector<std::vector<std::string>> rows;
   for (const ChannelError& c : comparison.channels) {
     rows.push_back({c.trial, to_string(c.role), c.name, fmt::format("{:.4g} {}", c.rms, c.unit),
@@ -79,6 +118,7 @@ void print(const Comparison& comparison) {
   }
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
   print_phases(comparison);
+  print_horizons(compared.horizons);
   print_lost(comparison.lost);
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",
@@ -97,10 +137,10 @@ void add_compare(CLI::App& app, Outcome& /*outcome*/) {
   command->footer(
       "Example:\n  plumbline compare demo/siso_mLA demo/mimo --model robots/mabel/leg_bench.yaml");
   command->callback([inputs] {
-    const Loaded loaded = load(*inputs, catalogue_for(*inputs));
-    const Comparison comparison = validation::compare(loaded.model, *loaded.data);
-    write_json(validation::to_json(comparison), inputs->json);
-    print(comparison);
+    const Loaded loaded = load(*inputs);
+    const api::Compared compared = api::compare(loaded);
+    write_json(api::to_json(compared), inputs->json);
+    print(compared);
   });
 }
 

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/model/known_effects.h"
-#include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
+#include "validation/api/diagnosing.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/own_parameters.h"
-#include "validation/diagnose/unexplained.h"
 #include "validation/predict/kept_results.h"
-#include "validation/report/repeat_json.h"
-#include "validation/report/result_json.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::cli {
@@ -142,7 +137,7 @@ void print_own_parameters(const std::vector<OwnParameter>& parameters) {
   if (parameters.empty()) {
     return;
   }
-  fmt::print("\nThe model's own numbers, within what is stated of them:\n\n");
+  fmt::print("\nModel parameters, within what is stated of them:\n\n");
   std::vector<std::vector<std::string>> rows;
   rows.reserve(parameters.size());
   for (const OwnParameter& p : parameters) {
@@ -157,7 +152,7 @@ void print_ladder(const std::vector<validation::Rung>& ladder) {
   fmt::print("\nLadder (error in units of the floor):\n\n");
   const bool in_segments = std::any_of(ladder.begin(), ladder.end(),
                                        [](const validation::Rung& rung) { return !std::isinf(rung.length); });
-  std::vector<std::string> head{"model", "train", "held-out", "foretold"};
+  std::vector<std::string> head{"model", "train", "held-out", "predictive"};
   if (in_segments) {
     head.insert(head.begin() + 1, "windows");
   }
@@ -177,7 +172,7 @@ void print(const Diagnosis& diagnosis) {
   print_verdict(diagnosis);
   print_ladder(diagnosis.ladder);
   fmt::print(
-      "\nHeld-out: at the values that are best for the train trials. Foretold: with what the train trials "
+      "\nHeld-out: at the values that are best for the train trials. Predictive: with what the train trials "
       "leave open\nof the values; this one decides.\n");
   print_own_parameters(validation::own_values(diagnosis.final_stage));
   if (!diagnosis.ranking.empty()) {
@@ -191,37 +186,6 @@ void print(const Diagnosis& diagnosis) {
   print_pairs(diagnosis.pairs);
 }
 
-/// Does the model have an effect of this kind at the same place?
-bool has_one(const model::Model& model, const model::EffectUse& use) {
-  return std::any_of(model.effects.begin(), model.effects.end(),
-                     [&](const model::EffectUse& other) { return other.label() == use.label(); });
-}
-
-/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
-void save_model(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
-  std::vector<model::AddedEffect> added;
-  std::vector<model::NewValue> values;
-  validation::Stage stage = diagnosis.final_stage;
-  stage.model = validation::fitted_model(stage);
-  const std::size_t own = given.effects.size();
-  for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
-    const model::EffectUse& use = stage.model.effects[e];
-    const effects::Values numbers = use.numbers();
-    if (!use.law->is_null(numbers.data())) {
-      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use)});
-    }
-  }
-  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
-    const auto& parameter = stage.parameters[p];
-    if (parameter.id.effect < static_cast<int>(own)) {
-      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)], 0.0,
-                        parameter.unit, "diagnose"});
-    }
-  }
-  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
-                       model::known_effects());
-}
-
 /// Long work then keeps its results in the file.
 void keep_results(const Loaded& loaded, const std::string& file, const std::vector<std::string>& written) {
   if (file.empty()) {
@@ -230,10 +194,9 @@ void keep_results(const Loaded& loaded, const std::string& file, const std::vect
   if (std::find(written.begin(), written.end(), file) != written.end()) {
     throw InputError({file, 0, "--resume"}, "the file of --save or --json", "a file of its own");
   }
-  const std::string inputs = validation::inputs_hash(loaded.model, loaded.data->trials);
-  loaded.data->kept = std::make_shared<validation::KeptResults>(file, inputs);
-  if (loaded.data->kept->found() > 0) {
-    fmt::print(stderr, "going on from {} results in {}\n", loaded.data->kept->found(), file);
+  const std::size_t found = api::keep_results(loaded, file);
+  if (found > 0) {
+    fmt::print(stderr, "going on from {} results in {}\n", found, file);
   }
 }
 
@@ -263,25 +226,20 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("--seed", options->diagnose.seed, "seed of the resampling")->capture_default_str();
   command->footer("Example:\n  plumbline diagnose demo/siso_mLA demo/siso_mLS demo/mimo --save found.yaml");
   command->callback([options] {
-    const effects::Catalogue catalogue = catalogue_for(options->inputs);
+    const effects::Catalogue catalogue = api::catalogue_without(options->inputs.without);
     check_writable(options->save);
     check_writable(options->resume);
-    const Loaded loaded = load(options->inputs, model::known_effects());
+    const Loaded loaded = load(options->inputs);
     keep_results(loaded, options->resume, {options->save, options->inputs.json});
-    Diagnosis diagnosis;
+    api::Answer answer;
     {
       ProgressLine progress;
-      diagnosis =
-          validation::diagnose(loaded.model, catalogue, *loaded.data, options->diagnose, progress.callback());
+      answer = api::diagnose(loaded, catalogue, options->diagnose, progress.callback());
     }
-    std::vector<UnexplainedForce> left;
-    if (!diagnosis.interrupted &&
-        (diagnosis.unexplained_share > 0.02 || diagnosis.verdict == Verdict::unexplained)) {
-      left = validation::unexplained_forces(diagnosis.final_stage, *loaded.data);
-    }
-    write_json(validation::to_json(diagnosis, left), options->inputs.json);
+    const Diagnosis& diagnosis = answer.diagnosis;
+    write_json(api::to_json(answer), options->inputs.json);
     print(diagnosis);
-    print_unexplained(left);
+    print_unexplained(answer.left);
     if (loaded.data->kept && !loaded.data->kept->is_written()) {
       fmt::print(stderr, "{}: results could not be written any more; those in it stay\n", options->resume);
     }
@@ -289,7 +247,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       fmt::print("\nThe same command goes on from the results in {}.\n", options->resume);
     }
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
-      save_model(diagnosis, loaded.model, options->save);
+      api::save(diagnosis, loaded.model, options->save);
     }
   });
 }

@@ -1,11 +1,9 @@
 #include <fmt/core.h>
 
 #include "simulator/effects/documentation.h"
-#include "simulator/model/known_effects.h"
-#include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
+#include "validation/api/effects_json.h"
 #include "validation/cli/commands.h"
-#include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 
@@ -14,48 +12,6 @@ namespace {
 
 using effects::Declaration;
 using effects::Parameter;
-
-std::string to_string(effects::Scale scale) {
-  switch (scale) {
-    case effects::Scale::linear:
-      return "linear";
-    case effects::Scale::logarithm:
-      return "logarithm";
-    case effects::Scale::reciprocal:
-      break;
-  }
-  return "reciprocal";
-}
-
-nlohmann::json to_json(const Parameter& parameter) {
-  return {{"name", parameter.name},
-          {"meaning", parameter.meaning},
-          {"rotary_unit", effects::unit_at(parameter.unit, true)},
-          {"linear_unit", effects::unit_at(parameter.unit, false)},
-          {"null_value", json_number(parameter.null_value)},
-          {"lower", json_number(parameter.lower)},
-          {"upper", json_number(parameter.upper)},
-          {"scale", to_string(parameter.scale)},
-          {"structural", parameter.structural}};
-}
-
-nlohmann::json to_json(const Declaration& law) {
-  nlohmann::json json{{"name", law.name},
-                      {"summary", law.summary},
-                      {"equation", law.equation},
-                      {"source", law.source},
-                      {"states", law.states},
-                      {"power_note", law.power_note},
-                      {"places", nlohmann::json::array()},
-                      {"parameters", nlohmann::json::array()}};
-  for (const effects::Place place : law.places) {
-    json["places"].push_back(effects::to_string(place));
-  }
-  for (const Parameter& parameter : law.parameters) {
-    json["parameters"].push_back(to_json(parameter));
-  }
-  return json;
-}
 
 /// Infinity as people write it.
 std::string number(double value) {
@@ -95,28 +51,10 @@ void print_details(const Declaration& law) {
   for (const Parameter& parameter : law.parameters) {
     rows.push_back({parameter.name, effects::unit_in_words(parameter.unit), number(parameter.null_value),
                     number(parameter.lower), number(parameter.upper),
-                    parameter.structural ? "never fitted" : "by its " + to_string(parameter.scale),
+                    parameter.structural ? "never fitted" : "by its " + api::to_string(parameter.scale),
                     parameter.meaning});
   }
   print_table({"parameter", "unit", "null", "lower", "upper", "searched", "meaning"}, rows);
-}
-
-/// All laws, or the named one.
-effects::Catalogue chosen(const std::string& name) {
-  effects::Catalogue catalogue = model::known_effects();
-  if (name.empty()) {
-    return catalogue;
-  }
-  const auto law = catalogue.find(name);
-  if (law == nullptr) {
-    std::vector<std::string> known;
-    for (const auto& one : catalogue.laws()) {
-      known.push_back(one->declaration().name);
-    }
-    throw InputError({"", 0, "effects"}, "\"" + name + "\"",
-                     "an effect of the catalogue" + nearest_names(name, known));
-  }
-  return effects::Catalogue({law});
 }
 
 struct Options {
@@ -125,12 +63,8 @@ struct Options {
 };
 
 void run(const Options& options) {
-  const effects::Catalogue catalogue = chosen(options.name);
-  nlohmann::json json{{"effects", nlohmann::json::array()}};
-  for (const auto& law : catalogue.laws()) {
-    json["effects"].push_back(to_json(law->declaration()));
-  }
-  write_json(json, options.json);
+  const effects::Catalogue catalogue = api::named_effects(options.name);
+  write_json(api::effects_json(catalogue), options.json);
   if (options.markdown) {
     fmt::print("{}", effects::documentation_table(catalogue));
     return;

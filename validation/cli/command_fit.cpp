@@ -4,14 +4,13 @@
 #include <limits>
 
 #include "simulator/model/known_effects.h"
-#include "simulator/model/robot_file.h"
+#include "validation/api/fitting.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/recipe_report.h"
-#include "validation/fit/fit.h"
 
 namespace plumbline::cli {
 namespace {
@@ -29,48 +28,9 @@ struct Options {
   std::optional<std::uint64_t> seed;
 };
 
-nlohmann::json to_json(const FittedParameter& parameter) {
-  nlohmann::json json{{"label", parameter.label},
-                      {"unit", parameter.unit},
-                      {"before", json_number(parameter.before)},
-                      {"after", json_number(parameter.after)},
-                      {"standard_deviation", json_number(parameter.deviation)},
-                      {"degrees_of_freedom", json_number(parameter.degrees_of_freedom)},
-                      {"interval", {json_number(parameter.lower), json_number(parameter.upper)}},
-                      {"partner", parameter.partner},
-                      {"correlation", parameter.correlation},
-                      {"doubts", nlohmann::json::array()}};
-  for (const Doubt& doubt : parameter.doubts) {
-    json["doubts"].push_back({{"kind", doubt.kind}, {"text", doubt.text}});
-  }
-  return json;
-}
-
-/// A score of trials that are not there is null.
-nlohmann::json to_json(const validation::Scores& scores, const validation::Data& data) {
-  nlohmann::json json{{"train", scores.train}, {"held_out", nullptr}, {"test", nullptr}};
-  if (scores.test > 0.0) {
-    json["test"] = scores.test;
-  }
-  if (data.has(validation::Role::held_out)) {
-    json["held_out"] = scores.held_out;
-  }
-  return json;
-}
-
-nlohmann::json to_json(const Fit& fit, const Loaded& loaded, const Options& options) {
-  nlohmann::json json{{"model", loaded.model.file},
-                      {"trials", options.inputs.trials},
-                      {"before", to_json(fit.before, *loaded.data)},
-                      {"after", to_json(fit.after, *loaded.data)},
-                      {"windows", fit.windows},
-                      {"confidence", options.fit.confidence},
-                      {"iterations", fit.iterations},
-                      {"converged", fit.converged},
-                      {"parameters", nlohmann::json::array()}};
-  for (const FittedParameter& parameter : fit.parameters) {
-    json["parameters"].push_back(to_json(parameter));
-  }
+nlohmann::json json_of(const Fit& fit, const Loaded& loaded, const Options& options) {
+  nlohmann::json json = api::to_json(fit, loaded, options.fit);
+  json["trials"] = options.inputs.trials;
   if (!options.out.empty()) {
     json["saved"] = options.out;
   }
@@ -87,14 +47,14 @@ void print_doubts(const Fit& fit) {
   for (const FittedParameter& parameter : fit.parameters) {
     for (const Doubt& doubt : parameter.doubts) {
       if (!any) {
-        fmt::print("\nWhat these data cannot tell:\n");
+        fmt::print("\nNot identifiable from these data, or hardly:\n");
         any = true;
       }
       fmt::print("  {}: {}\n", parameter.label, doubt.text);
     }
   }
   if (!any) {
-    fmt::print("\nThe data tell every one of these parameters.\n");
+    fmt::print("\nAll of these parameters are identifiable from these data.\n");
   }
 }
 
@@ -150,43 +110,20 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   }
 }
 
-/// "fit on chirp, steps": the trials that were fitted.
-std::string source_text(const validation::Data& data) {
-  std::string text;
-  for (const validation::Trial& trial : data.trials) {
-    if (trial.role == validation::Role::train) {
-      text += (text.empty() ? "fit on " : ", ") + trial.name;
-    }
-  }
-  return text;
-}
-
-void save_model(const Fit& fit, const Loaded& loaded, const std::string& file) {
-  const std::string source = source_text(*loaded.data);
-  std::vector<model::NewValue> values;
-  for (const FittedParameter& parameter : fit.parameters) {
-    if (parameter.seen()) {
-      values.push_back({parameter.label, parameter.after, parameter.deviation, parameter.unit, source});
-    }
-  }
-  model::write_overlay(file, loaded.model.file, {}, values, "values " + source, model::known_effects());
-}
-
 void run(const Options& options) {
   check_writable(options.out);
   check_writable(options.inputs.json);
-  const Loaded loaded = load(options.inputs, model::known_effects());
+  const Loaded loaded = load(options.inputs);
   check_not_an_input(options.out, loaded.model.lineage);
-  const auto parameters = validation::matching(validation::free_parameters(loaded.model), options.free);
   Fit fit;
   {
     ProgressLine progress;
-    fit = validation::fit(loaded.model, *loaded.data, parameters, options.fit, progress.callback());
+    fit = api::fit(loaded, options.free, options.fit, progress.callback());
   }
   if (!options.out.empty()) {
-    save_model(fit, loaded, options.out);
+    api::save(fit, loaded, options.out);
   }
-  write_json(to_json(fit, loaded, options), options.inputs.json);
+  write_json(json_of(fit, loaded, options), options.inputs.json);
   print(fit, loaded, options);
 }
 
@@ -234,7 +171,7 @@ void check_usage(const CLI::App& command, const Options& options) {
 void add_fit(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("fit", "Estimate parameters, how sure they are, and what the data cannot tell");
+      app.add_subcommand("fit", "Estimate parameters, how sure they are, and what is not identifiable");
   add_trial_inputs(*command, options->inputs);
   command->get_option("trial")->required(false);  // a recipe names its own
   command

@@ -1,29 +1,22 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <set>
 
-#include "simulator/model/known_effects.h"
-#include "simulator/model/robot_file.h"
+#include "validation/api/ladder.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
+#include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/closed_loop/reference.h"
-#include "validation/compare/compare.h"
-#include "validation/compare/rung_name.h"
-#include "validation/report/whole_trials.h"
 
 namespace plumbline::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using validation::LoopError;
 using validation::NeededForce;
 using validation::ReferenceValue;
-using validation::Scores;
 using validation::WholeTrial;
 
 constexpr double kWorthSaying = 0.005;  // share by which a recorded disturbance may differ from its column
@@ -33,53 +26,6 @@ struct LadderInputs {
   std::vector<std::string> models;
 };
 
-struct Rung {
-  std::string file, name;
-  std::vector<std::string> lineage;
-  bool has_train = false, has_held_out = false;
-  Scores scores;
-  std::vector<WholeTrial> trials;
-};
-
-std::vector<std::string> model_files(const LadderInputs& ladder) {
-  if (ladder.models.size() > 1) {
-    return ladder.models;
-  }
-  const std::string file = ladder.models.empty() ? validation::model_of_trial(ladder.inputs.trials.front())
-                                                 : ladder.models.front();
-  return model::read_model(file, model::known_effects()).lineage;
-}
-
-Rung climb(const Loaded& loaded, const validation::EffectNames& known) {
-  Rung rung;
-  rung.file = loaded.model.file;
-  rung.lineage = loaded.model.lineage;
-  rung.name = validation::rung_name(loaded.model, known);
-  rung.has_train = loaded.data->has(validation::Role::train);
-  rung.has_held_out = loaded.data->has(validation::Role::held_out);
-  rung.scores = validation::compare(loaded.model, *loaded.data).scores;
-  rung.trials = validation::whole_trials(loaded.model, *loaded.data);
-  return rung;
-}
-
-nlohmann::json to_json(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& published) {
-  nlohmann::json json{{"models", nlohmann::json::array()}, {"published", nlohmann::json::array()}};
-  for (const Rung& rung : rungs) {
-    nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
-    model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
-    model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
-    model["test"] = rung.scores.test > 0.0 ? nlohmann::json(rung.scores.test) : nlohmann::json();
-    for (const WholeTrial& trial : rung.trials) {
-      model["trials"].push_back(validation::to_json(trial));
-    }
-    json["models"].push_back(model);
-  }
-  for (const ReferenceValue& value : published) {
-    json["published"].push_back(validation::to_json(value));
-  }
-  return json;
-}
-
 /// One column of errors in %: a quantity of a trial, and of a motor where the trial has several.
 struct ErrorColumn {
   std::string head;
@@ -88,7 +34,7 @@ struct ErrorColumn {
   std::size_t trial, item;
 };
 
-std::optional<double> value_of(const Rung& rung, const ErrorColumn& column) {
+std::optional<double> value_of(const api::LadderRung& rung, const ErrorColumn& column) {
   const WholeTrial& trial = rung.trials[column.trial];
   if (column.quantity == ReferenceValue::Quantity::inverse_force) {
     return column.item < trial.inverse.motors.size()
@@ -105,9 +51,9 @@ std::optional<double> value_of(const Rung& rung, const ErrorColumn& column) {
 
 /// The longest of a trial's result lists over all models: what one model lacks another may have.
 template <typename Item, typename List>
-std::vector<Item> longest(const std::vector<Rung>& rungs, std::size_t trial, const List& list_of) {
+std::vector<Item> longest(const std::vector<api::LadderRung>& rungs, std::size_t trial, const List& list_of) {
   std::vector<Item> longest;
-  for (const Rung& rung : rungs) {
+  for (const api::LadderRung& rung : rungs) {
     const std::vector<Item>& items = list_of(rung.trials[trial]);
     longest = items.size() > longest.size() ? items : longest;
   }
@@ -116,7 +62,7 @@ std::vector<Item> longest(const std::vector<Rung>& rungs, std::size_t trial, con
 
 /// Columns that any of the models can fill. "[2] force mLA": trial 2, motor mLA (named where there are
 /// several).
-std::vector<ErrorColumn> error_columns(const std::vector<Rung>& rungs) {
+std::vector<ErrorColumn> error_columns(const std::vector<api::LadderRung>& rungs) {
   using Quantity = ReferenceValue::Quantity;
   std::vector<ErrorColumn> columns;
   for (std::size_t t = 0; t < rungs.front().trials.size(); ++t) {
@@ -178,9 +124,9 @@ std::vector<std::vector<std::string>> published_rows(const std::vector<Reference
   return rows;
 }
 
-void print_notes(const std::vector<Rung>& rungs) {
+void print_notes(const std::vector<api::LadderRung>& rungs) {
   std::set<std::string> notes;
-  for (const Rung& rung : rungs) {
+  for (const api::LadderRung& rung : rungs) {
     for (const WholeTrial& trial : rung.trials) {
       if (!trial.inverse.not_available.empty()) {
         notes.insert(fmt::format("{}, {}: no inverse model, {}.", rung.name, trial.trial,
@@ -204,14 +150,14 @@ void print_notes(const std::vector<Rung>& rungs) {
   }
 }
 
-void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& published) {
+void print(const std::vector<api::LadderRung>& rungs, const std::vector<ReferenceValue>& published) {
   const std::vector<ErrorColumn> columns = error_columns(rungs);
   std::vector<std::string> head{"model", "train", "held-out"};
   for (const ErrorColumn& column : columns) {
     head.push_back(column.head);
   }
   std::vector<std::vector<std::string>> rows;
-  for (const Rung& rung : rungs) {
+  for (const api::LadderRung& rung : rungs) {
     std::vector<std::string> row{rung.name, score_text(rung.has_train, rung.scores.train),
                                  score_text(rung.has_held_out, rung.scores.held_out)};
     for (const ErrorColumn& column : columns) {
@@ -249,29 +195,15 @@ void print(const std::vector<Rung>& rungs, const std::vector<ReferenceValue>& pu
   }
 }
 
-void run(const LadderInputs& ladder) {
-  check_writable(ladder.inputs.json);
-  std::vector<Rung> rungs;
-  validation::EffectNames known;
+void run(const LadderInputs& inputs) {
+  check_writable(inputs.inputs.json);
+  api::Ladder ladder;
   {
     ProgressLine progress;
-    const validation::Progress report = progress.callback();
-    const std::vector<std::string> files = model_files(ladder);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      report("ladder: " + fs::path(files[i]).filename().string(),
-             static_cast<double>(i) / static_cast<double>(files.size()));
-      Inputs inputs = ladder.inputs;
-      inputs.model = files[i];
-      const Loaded loaded = load(inputs, model::known_effects());
-      rungs.push_back(climb(loaded, known));
-      known = validation::effect_names(loaded.model);
-    }
+    ladder = api::ladder(inputs.inputs, inputs.models, &stop_flag(), progress.callback());
   }
-  const std::string file = validation::reference_beside(rungs.front().lineage.front());
-  const std::vector<ReferenceValue> published =
-      file.empty() ? std::vector<ReferenceValue>() : validation::read_reference(file);
-  write_json(to_json(rungs, published), ladder.inputs.json);
-  print(rungs, published);
+  write_json(api::to_json(ladder), inputs.inputs.json);
+  print(ladder.rungs, ladder.published);
 }
 
 }  // namespace

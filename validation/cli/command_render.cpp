@@ -7,7 +7,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "controllers/mabel_hopping/hopping_phases.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/render/film.h"
@@ -133,10 +132,6 @@ Scene from_trace(const Options& options) {
   scene.motion = render::motion_from(read_table(options.trace), *scene.plant);
   if (scene.motion.phase.empty()) {
     scene.phase_names = render::phases_by_contact(scene.model, scene.motion);
-    return scene;
-  }
-  for (int phase = 1; phase <= 6; ++phase) {
-    scene.phase_names.emplace_back(controllers::to_string(static_cast<controllers::HoppingPhase>(phase)));
   }
   return scene;
 }
@@ -293,8 +288,7 @@ void add_render(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render", "Draw a trial or a simulated motion: a still or a video");
   command->add_option("trial", options->trial, "trial folder (or its trial.yaml)")->type_name("TRIAL");
-  command
-      ->add_option("--trace", options->trace, "trace of hop or simulate in place of a trial; needs --model")
+  command->add_option("--trace", options->trace, "trace of simulate in place of a trial; needs --model")
       ->type_name("FILE");
   command->add_option("--model", options->model, "model file in place of the one the trial names")
       ->type_name("FILE");

@@ -227,6 +227,16 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
   needs_scenario(
       command.add_option("--seconds", options.seconds, "with --scenario: end after so many seconds"))
       ->check(CLI::PositiveNumber);
+  needs_scenario(command.add_option("--cycles", options.cycles,
+                                    "with --scenario: end after so many steps, hops or strides of its gait"))
+      ->check(CLI::PositiveNumber);
+  needs_scenario(command.add_option("--starts", options.starts,
+                                    "with --scenario: so many random starts, drawn from its ranges"))
+      ->check(CLI::PositiveNumber);
+  needs_scenario(
+      command.add_option("--enough", options.enough, "with --starts: cycles that count as sustained"))
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   needs_scenario(
       command.add_option("--platform", options.platforms,
                          "with --scenario: a step in the ground, in place of the scenario's terrain: "

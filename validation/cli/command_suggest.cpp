@@ -3,47 +3,21 @@
 #include <cmath>
 
 #include "simulator/model/known_effects.h"
+#include "validation/api/suggesting.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/suggest/suggest.h"
 
 namespace plumbline::cli {
 namespace {
 
+using api::any_separable;
 using validation::Separation;
 using validation::Suggestions;
 
 std::string seconds_text(double seconds) {
   return std::isfinite(seconds) ? fmt::format("{:.1f} s", seconds) : "never";
-}
-
-nlohmann::json to_json(const Suggestions& suggestions) {
-  nlohmann::json json{{"refused", suggestions.refused},
-                      {"explanations", nlohmann::json::array()},
-                      {"experiments", nlohmann::json::array()}};
-  for (const validation::Explanation& one : suggestions.explanations) {
-    json["explanations"].push_back(
-        {{"effect", one.name}, {"train", one.scores.train}, {"held_out", one.scores.held_out}});
-  }
-  for (const Separation& one : suggestions.experiments) {
-    json["experiments"].push_back(
-        {{"name", one.name},
-         {"share_of_reach", one.share},
-         {"error", one.error},
-         {"seconds", std::isfinite(one.seconds) ? nlohmann::json(one.seconds) : nlohmann::json()}});
-  }
-  json["inseparable"] = nlohmann::json::array();
-  for (const auto& [one, other] : suggestions.inseparable) {
-    json["inseparable"].push_back({one, other});
-  }
-  return json;
-}
-
-/// The best experiment is first: when it separates nothing, none does.
-bool any_separable(const Suggestions& suggestions) {
-  return !suggestions.experiments.empty() && suggestions.experiments.front().seconds > 0.0;
 }
 
 void print_explanations(const Suggestions& suggestions) {
@@ -102,14 +76,14 @@ void add_suggest(CLI::App& app, Outcome& /*outcome*/) {
       "--save next.yaml");
   command->callback([options] {
     check_writable(options->save);
-    const Loaded loaded = load(options->inputs, model::known_effects());
+    const Loaded loaded = load(options->inputs);
     Suggestions suggestions;
     {
       ProgressLine progress;
       suggestions = validation::suggest(loaded.model, model::known_effects(), *loaded.data, options->between,
                                         progress.callback());
     }
-    write_json(to_json(suggestions), options->inputs.json);
+    write_json(api::to_json(suggestions), options->inputs.json);
     if (!options->save.empty() && any_separable(suggestions)) {
       write_text_atomically(options->save, suggestions.experiments.front().text);
     }

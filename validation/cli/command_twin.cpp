@@ -4,14 +4,13 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
+#include "validation/api/twins.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/trial/write_trial.h"
-#include "validation/twin/twin.h"
 
 namespace plumbline::cli {
 namespace {
@@ -31,21 +30,16 @@ nlohmann::json truth_of(const TwinInputs& inputs) {
 void run(const TwinInputs& inputs) {
   check_writable(inputs.truth);
   check_writable(inputs.json);
-  const effects::Catalogue catalogue = model::known_effects();
-  const model::Model bare = model::read_model(inputs.model, catalogue);
-  model::Model model = bare;
-  for (const std::string& text : inputs.with) {
-    model.effects.push_back(validation::parse_effect(text, model, catalogue));
-  }
+  const model::Model model = model::read_model(inputs.model, model::known_effects());
+  const model::Model robot = api::with_effects(model, inputs.with);
   nlohmann::json json{{"trials", nlohmann::json::array()}};
   validation::TwinOptions options = inputs.twin;
   for (const std::string& file : inputs.experiments) {
-    const validation::Experiment experiment = validation::read_experiment(file, bare);
     const std::string folder =
         (std::filesystem::path(inputs.out) / std::filesystem::path(file).stem()).string();
-    const validation::Trial trial = validation::twin(model, experiment, options);
+    const validation::Trial trial = api::twin(model, robot, file, options);
     ++options.seed;  // each trial has its own noise
-    validation::write_trial(trial, bare, folder);
+    validation::write_trial(trial, model, folder);
     fmt::print("{}: {} samples, {} channels, role {}\n", folder, trial.samples(), trial.measured.size(),
                to_string(trial.role));
     json["trials"].push_back(folder);
@@ -62,7 +56,10 @@ void add_twin(CLI::App& app, Outcome& /*outcome*/) {
   auto inputs = std::make_shared<TwinInputs>();
   CLI::App* command = app.add_subcommand(
       "twin", "Synthetic measurements from a model, with its sensors' quantisation and noise");
-  command->add_option("model", inputs->model, "model file")->required()->type_name("MODEL");
+  CLI::Option_group* model = command->add_option_group("model", "the model that plays the robot");
+  model->add_option("--model", inputs->model, "model file")->type_name("FILE");
+  model->add_option("model", inputs->model)->group("");  // as it was written before
+  model->require_option(1);
   command->add_option("--with", inputs->with, "effect to hide in the data: EFFECT@WHERE:param=value,...")
       ->type_name("EFFECT");
   command
@@ -80,7 +77,7 @@ void add_twin(CLI::App& app, Outcome& /*outcome*/) {
       ->capture_default_str();
   add_json_option(*command, inputs->json);
   command->footer(
-      "Example:\n  plumbline twin robots/mabel/leg_bench.yaml --with "
+      "Example:\n  plumbline twin --model robots/mabel/leg_bench.yaml --with "
       "cable_stretch@leg_angle:stiffness=3.5,damping=0.09 "
       "--experiment robots/mabel/experiments/siso_mLA.yaml -o twin");
   command->callback([inputs] { run(*inputs); });

@@ -15,8 +15,8 @@ struct Outcome {
 void add_effects(CLI::App& app, Outcome& outcome);
 void add_check(CLI::App& app, Outcome& outcome);
 void add_simulate(CLI::App& app, Outcome& outcome);
-void add_hop(CLI::App& app, Outcome& outcome);
 void add_validate(CLI::App& app, Outcome& outcome);
+void add_tune(CLI::App& app, Outcome& outcome);
 void add_compare(CLI::App& app, Outcome& outcome);
 void add_fit(CLI::App& app, Outcome& outcome);
 void add_diagnose(CLI::App& app, Outcome& outcome);
@@ -28,9 +28,6 @@ void add_suggest(CLI::App& app, Outcome& outcome);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);
-void add_certify(CLI::App& app, Outcome& outcome);
-void add_verify(CLI::App& app, Outcome& outcome);
-void add_key(CLI::App& app, Outcome& outcome);
-void add_robot(CLI::App& app, Outcome& outcome);
+void add_spring_mass(CLI::App& app, Outcome& outcome);
 
 }  // namespace plumbline::cli

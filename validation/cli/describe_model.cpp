@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include "simulator/model/kinds.h"
-#include "simulator/model/plant.h"
 #include "validation/cli/describe.h"
 #include "validation/cli/files.h"
 #include "validation/cli/output.h"
@@ -12,7 +11,6 @@ namespace {
 
 using model::Model;
 using model::Quantity;
-using nlohmann::json;
 using Rows = std::vector<std::vector<std::string>>;
 
 /// What a force plate or another sensor measures.
@@ -111,23 +109,6 @@ void print_sensors(const Model& model) {
 }
 
 }  // namespace
-
-Freedom freedom_of(const model::Model& model, const std::vector<validation::Lock>& locks) {
-  std::vector<model::Lock> held;
-  held.reserve(locks.size());
-  for (const validation::Lock& lock : locks) {
-    held.push_back({lock.at, lock.value});
-  }
-  const model::Plant plant(model, held);  // refuses contradictory ratios and singular mass matrices
-  return {plant.positions(), plant.states()};
-}
-
-json to_json(const Model& model, const Freedom& freedom) {
-  json description = validation::model_json(model);
-  description["independent_coordinates"] = freedom.coordinates;
-  description["states"] = freedom.states;
-  return description;
-}
 
 void print(const Model& model, const Freedom& freedom) {
   fmt::print("Model {}: {}\n", model.file, model.robot);

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "simulator/model/kinds.h"
 #include "validation/cli/describe.h"
@@ -11,63 +10,12 @@ namespace plumbline::cli {
 namespace {
 
 using model::Model;
-using nlohmann::json;
 using validation::Trial;
 
+using api::rms;
 using model::reading_unit;
 
-double rms(const Eigen::VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-}
-
 }  // namespace
-
-json to_json(const Trial& trial, const Model& model, const Freedom& freedom) {
-  json out{{"kind", "trial"},
-           {"file", trial.file},
-           {"title", trial.title},
-           {"model", model.file},
-           {"data", trial.data_file},
-           {"role", to_string(trial.role)},
-           {"samples", trial.samples()},
-           {"period", trial.period},
-           {"duration", trial.time[trial.samples() - 1] - trial.time[0]},
-           {"independent_coordinates", freedom.coordinates},
-           {"events", trial.events}};
-  for (const char* key : {"measured", "commands", "locked", "controllers"}) {
-    out[key] = json::array();
-  }
-  for (const validation::Measured& channel : trial.measured) {
-    out["measured"].push_back({{"sensor", channel.sensor},
-                               {"column", channel.column},
-                               {"column_unit", channel.unit},
-                               {"unit", reading_unit(model, channel.sensor)},
-                               {"rms", rms(channel.values)},
-                               {"floor", sensor_of(model, channel).floor()}});
-  }
-  out["contact_events"] = json::array();
-  for (const validation::ContactEvent& event : trial.contact_events) {
-    out["contact_events"].push_back(
-        {{"time", event.time},
-         {"contact_switch", trial.switches[static_cast<std::size_t>(event.record)].name},
-         {"kind", event.touchdown ? "touchdown" : "lift-off"}});
-  }
-  for (const validation::Command& command : trial.commands) {
-    out["commands"].push_back({{"motor", command.motor},
-                               {"column", command.column},
-                               {"column_unit", command.unit},
-                               {"unit", model.find_motor(command.motor)->command_unit},
-                               {"rms", rms(command.values)}});
-  }
-  for (const validation::Lock& lock : trial.locks) {
-    out["locked"].push_back({{"at", lock.at}, {"value", lock.value}});
-  }
-  for (const validation::Controller& controller : trial.controllers) {
-    out["controllers"].push_back(
-        {{"kind", controller.kind}, {"motor", controller.motor}, {"sensor", controller.sensor}});
-  }
-  return out;
-}
 
 void print(const Trial& trial, const Model& model, const Freedom& freedom) {
   fmt::print("Trial {}: {}\n", trial.file, trial.title);

@@ -2,12 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "simulator/model/known_effects.h"
-#include "simulator/model/robot_file.h"
-#include "simulator/trace/error.h"
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
-#include "validation/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
 
@@ -42,39 +38,9 @@ void add_trial_inputs(CLI::App& command, Inputs& inputs) {
       ->type_name("FILE");
 }
 
-effects::Catalogue catalogue_for(const Inputs& inputs) {
-  effects::Catalogue catalogue = model::known_effects();
-  for (const std::string& name : inputs.without) {
-    if (!catalogue.find(name)) {
-      std::vector<std::string> known;
-      for (const auto& law : catalogue.laws()) {
-        known.push_back(law->declaration().name);
-      }
-      throw InputError("--without: unknown effect '" + name + "'" + nearest_names(name, known));
-    }
-    catalogue = catalogue.without(name);
-  }
-  return catalogue;
-}
-
-Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue) {
+Loaded load(const Inputs& inputs) {
   check_writable(inputs.json);  // before the work, not after it
-  const std::string file =
-      inputs.model.empty() ? validation::model_of_trial(inputs.trials.front()) : inputs.model;
-  Loaded loaded{model::read_model(file, catalogue), nullptr};
-  validation::TrialOptions options;
-  options.data_folder = inputs.data_folder;
-  std::vector<validation::Trial> trials;
-  for (const std::string& path : inputs.trials) {
-    trials.push_back(validation::read_trial(path, loaded.model, options));
-    validation::check_command_units(loaded.model, trials.back());
-  }
-  validation::check_roles(trials);
-  validation::PredictOptions predict;
-  predict.window = inputs.window;
-  loaded.data = std::make_unique<validation::Data>(std::move(trials), predict);
-  loaded.data->stop = &stop_flag();
-  return loaded;
+  return api::load(inputs, &stop_flag());
 }
 
 }  // namespace plumbline::cli

@@ -6,18 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "simulator/effects/catalogue.h"
-#include "simulator/model/model.h"
-#include "validation/predict/problem.h"
+#include "validation/api/loading.h"
 
 namespace plumbline::cli {
 
-struct Inputs {
-  std::vector<std::string> trials;
-  std::string model;  ///< empty: the model that the first trial names
-  std::string data_folder;
+struct Inputs : api::Sources {
   std::string json;
-  double window = 0.5;               ///< s
   std::vector<std::string> without;  ///< effects left out of the catalogue
 };
 
@@ -29,15 +23,9 @@ void add_trial_inputs(CLI::App& command, Inputs& inputs);
 CLI::Validator between(double least, double most);
 void add_json_option(CLI::App& command, std::string& json);
 
-effects::Catalogue catalogue_for(const Inputs& inputs);
+using api::Loaded;
 
-struct Loaded {
-  model::Model model;
-  std::unique_ptr<validation::Data> data;
-};
-
-/// Reads the model and the trials, checks roles and whether the commands' units can be right, and cuts
-/// windows; the stop flag is wired to Ctrl-C.
-Loaded load(const Inputs& inputs, const effects::Catalogue& catalogue);
+/// api::load with the stop flag wired to Ctrl-C. Refuses a file of --json that could not be written.
+Loaded load(const Inputs& inputs);
 
 }  // namespace plumbline::cli

@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
     plumbline::cli::add_effects(app, outcome);
     plumbline::cli::add_check(app, outcome);
     plumbline::cli::add_simulate(app, outcome);
-    plumbline::cli::add_hop(app, outcome);
     plumbline::cli::add_validate(app, outcome);
+    plumbline::cli::add_tune(app, outcome);
     plumbline::cli::add_compare(app, outcome);
     plumbline::cli::add_fit(app, outcome);
     plumbline::cli::add_diagnose(app, outcome);
@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_new_trial(app, outcome);
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);
+    plumbline::cli::add_spring_mass(app, outcome);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -100,11 +100,11 @@ void print_findings(const Recipe& recipe, const Step& step, const StepResult& re
 
 std::string untold_text(const validation::Untold& untold) {
   if (!std::isfinite(untold.width)) {
-    return "  not told by these data: " + untold.unknown;
+    return "  not identifiable from these data: " + untold.unknown;
   }
   const validation::StrongCorrelation& pair = untold.strongest;
   const std::string partner = pair.one == untold.unknown ? pair.other : pair.one;
-  return fmt::format("  not told by these data: {} (its interval is {:.0f} % of its size wide{})",
+  return fmt::format("  not identifiable from these data: {} (its interval is {:.0f} % of its size wide{})",
                      untold.unknown, 100.0 * untold.width,
                      partner.empty() ? "" : fmt::format("; trades with {}", partner));
 }
@@ -112,7 +112,7 @@ std::string untold_text(const validation::Untold& untold) {
 void print_step(const Recipe& recipe, const Step& step, const StepResult& result, const Truth& truth,
                 double confidence) {
   fmt::print("{}: {} ({}{})\n", step.name, step.title, step.source,
-             step.method == "information" ? "; what the data could tell, nothing recovered"
+             step.method == "information" ? "; what is identifiable, nothing recovered"
              : step.carried               ? ""
                                           : "; for comparison");
   print_findings(recipe, step, result, truth, confidence);
@@ -124,7 +124,8 @@ void print_step(const Recipe& recipe, const Step& step, const StepResult& result
     for (const auto& [name, part] : weak.parts) {
       parts += fmt::format("{}{:+.2f} {}", parts.empty() ? "" : " ", part, name);
     }
-    fmt::print("  hardly told (known to within {:.2g} times the values): {}\n", weak.deviation, parts);
+    fmt::print("  hardly identifiable (known to within {:.2g} times the values): {}\n", weak.deviation,
+               parts);
   }
   if (step.method != "information") {
     for (const validation::Untold& one : untold(recipe, result)) {
@@ -206,7 +207,7 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
                       {"seconds", result.seconds},
                       {"findings", nlohmann::json::array()},
                       {"correlations", nlohmann::json::array()},
-                      {"untold", nlohmann::json::array()},
+                      {"not_identifiable", nlohmann::json::array()},
                       {"weak", nlohmann::json::array()}};
   for (const Finding& finding : result.findings) {
     // Nothing is recovered where only information is asked for.
@@ -217,7 +218,7 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
   }
   if (step.method != "information") {
     for (const validation::Untold& one : untold(recipe, result)) {
-      json["untold"].push_back({{"unknown", one.unknown}, {"width", json_number(one.width)}});
+      json["not_identifiable"].push_back({{"unknown", one.unknown}, {"width", json_number(one.width)}});
     }
   }
   for (const validation::WeakDirection& weak : result.weak) {

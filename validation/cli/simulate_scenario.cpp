@@ -10,6 +10,7 @@
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/gait/gait_run.h"
 #include "validation/trial/write_trial.h"
 #include "validation/twin/recorded_run.h"
 
@@ -35,6 +36,51 @@ run::RunOptions options_of(const ScenarioOptions& options) {
     return false;
   };
   return run;
+}
+
+/// Duration of each cycle, and what each quantity of the scenario changes by.
+validation::GaitView view_of(const run::LoadedScenario& loaded, const validation::Gait& gait) {
+  validation::GaitView view;
+  view.gait = gait;
+  view.where = {loaded.scenario.file, 0, "quantities"};
+  view.measures.emplace_back();
+  for (const run::Quantity& quantity : loaded.scenario.quantities) {
+    validation::Measure change;
+    change.kind = validation::Measure::Kind::change;
+    change.channels = {quantity.name};
+    change.text = "change of " + quantity.name;
+    view.measures.push_back(change);
+  }
+  return view;
+}
+
+nlohmann::json to_json(const validation::GaitView& view, const std::vector<validation::Cycle>& cycles) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const validation::Cycle& cycle : cycles) {
+    nlohmann::json one{{"begin", cycle.begin}, {"end", cycle.end}};
+    for (std::size_t m = 1; m < view.measures.size(); ++m) {
+      one["change"][view.measures[m].channels.front()] = cycle.values[m];
+    }
+    json.push_back(one);
+  }
+  return json;
+}
+
+void print_cycles(const validation::GaitView& view, const std::vector<validation::Cycle>& cycles) {
+  std::vector<std::string> head{to_string(view.gait.cycle), "end s", "duration s"};
+  for (std::size_t m = 1; m < view.measures.size(); ++m) {
+    head.push_back(view.measures[m].text);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t c = 0; c < cycles.size(); ++c) {
+    std::vector<std::string> row{fmt::format("{}", c + 1), fmt::format("{:.3f}", cycles[c].end)};
+    for (const double value : cycles[c].values) {
+      row.push_back(fmt::format("{:.3f}", value));
+    }
+    rows.push_back(row);
+  }
+  fmt::print("\n");
+  print_table(head, rows);
 }
 
 nlohmann::json to_json(const run::RunRecord& run, const run::LoadedScenario& loaded,
@@ -165,25 +211,92 @@ run::LoadedScenario load_scenario(const ScenarioOptions& options) {
   return loaded;
 }
 
+namespace {
+
+validation::GaitOptions gait_options(const ScenarioOptions& options, long enough) {
+  validation::GaitOptions gait;
+  gait.enough = enough;
+  gait.run = options_of(options);
+  gait.stop = &stop_flag();
+  return gait;
+}
+
+void simulate_starts(const ScenarioOptions& options, const run::LoadedScenario& loaded,
+                     const validation::Gait& gait) {
+  if (!options.out.empty() || !options.record.empty()) {
+    throw InputError({"", 0, options.out.empty() ? "--record" : "--out"}, "more than one start",
+                     "a single run for a trace or a trial");
+  }
+  const validation::GaitView view = view_of(loaded, gait);
+  ProgressLine line;
+  const validation::Progress show = line.callback();
+  const std::vector<validation::GaitRun> runs =
+      validation::run_gaits(validation::from_starts(loaded, options.starts, options.seed), view,
+                            gait_options(options, options.cycles > 0 ? options.cycles : options.enough),
+                            [&](int done) { show("runs", static_cast<double>(done) / options.starts); });
+  const validation::Share share = validation::share_of("random starts", runs, options.enough);
+  nlohmann::json json{{"scenario", options.scenario},
+                      {"starts", share.runs},
+                      {"sustained", share.sustained},
+                      {"median_cycles", share.median_cycles},
+                      {"runs", nlohmann::json::array()}};
+  for (const validation::GaitRun& run : runs) {
+    json["runs"].push_back({{"cycles", run.cycles.size()}, {"time", run.run.time}, {"end", run.run.end}});
+  }
+  write_json(json, options.json);
+  fmt::print("{} of {} starts sustained ({} cycles or more); median {:.0f}.\n\n", share.sustained, share.runs,
+             options.enough, share.median_cycles);
+  const auto settled = validation::settled_cycles(gait, runs);
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t m = 0; m < view.measures.size(); ++m) {
+    const validation::Spread spread = validation::spread_of(validation::values_of(settled, m));
+    rows.push_back({m == 0 ? "duration" : view.measures[m].text,
+                    fmt::format("{:.4g} +- {:.2g}", spread.mean, spread.deviation)});
+  }
+  print_table({"over the settled cycles, SI", "mean"}, rows);
+}
+
+}  // namespace
+
 void simulate_scenario(const ScenarioOptions& options) {
   check_new_folder(options.record);
   check_not_an_input(options.out, {options.scenario, options.model, options.controller});
   const run::LoadedScenario loaded = load_scenario(options);
-  const run::RunRecord run = run::run_scenario(
-      loaded.model, loaded.scenario, loaded.controller ? &*loaded.controller : nullptr, options_of(options));
+  const auto gait = validation::read_gait(loaded);
+  if (!gait && (options.cycles > 0 || options.starts > 1)) {
+    throw InputError({"", 0, options.cycles > 0 ? "--cycles" : "--starts"},
+                     "a scenario without a section gait", "one that says what its cycles are");
+  }
+  if (options.starts > 1) {
+    simulate_starts(options, loaded, *gait);
+    return;
+  }
+  const validation::GaitView view = gait ? view_of(loaded, *gait) : validation::GaitView();
+  validation::GaitRun done;
+  if (gait) {
+    done = validation::run_gait(loaded, view, gait_options(options, options.cycles));
+  } else {
+    done.run = run::run_scenario(loaded.model, loaded.scenario,
+                                 loaded.controller ? &*loaded.controller : nullptr, options_of(options));
+  }
+  const run::RunRecord& run = done.run;
   nlohmann::json json = to_json(run, loaded, options);
+  json["cycles"] = to_json(view, done.cycles);
   if (!options.out.empty()) {
     write_trace(run.trace, options.out);
     json["trace"] = options.out;
   }
   if (!options.record.empty()) {
-    validation::Trial trial = validation::recorded_run(loaded.model, run.record, loaded.scenario.title);
+    validation::Trial trial = validation::recorded_run(loaded.model, run.record, loaded.scenario);
     trial.role = options.role;
     validation::write_trial(trial, loaded.model, options.record);
     json["trial"] = options.record;
   }
   write_json(json, options.json);
   print(run, loaded);
+  if (!done.cycles.empty()) {
+    print_cycles(view, done.cycles);
+  }
 }
 
 }  // namespace plumbline::cli

@@ -17,6 +17,9 @@ struct ScenarioOptions {
   std::vector<std::string> set;    ///< CONSTANT=VALUE of the controller, SI
   std::vector<std::string> start;  ///< clearance=VALUE, position:NAME=VALUE, velocity:NAME=VALUE, SI
   double seconds = 0.0;            ///< 0: as the scenario says
+  long cycles = 0;                 ///< of the scenario's gait that end the run; 0: none
+  int starts = 1;                  ///< random starts; more than 1: shares instead of a trace
+  long enough = 40;                ///< cycles that count as sustained
   std::uint64_t seed = 1;          ///< of the sensors' noise
   double tolerance = 0.0;          ///< 0: the usual one
   std::optional<integrate::Method> method;

@@ -66,9 +66,8 @@ void accept_group(const Tried& tried, const Group& group, const Data& data, Diag
   set_values(group.stage, data, accepted);
   diagnosis.final_stage = group.stage;
   diagnosis.accepted = accepted;
-  diagnosis.ladder.push_back(
-      {"+ friction at " + std::to_string(group.candidates.size()) + " places", group.stage,
-       diagnosis.ladder.back().length});
+  diagnosis.ladder.push_back({"+ friction at " + std::to_string(group.candidates.size()) + " places",
+                              group.stage, diagnosis.ladder.back().length});
 }
 
 void drop_accepted(Diagnosis& diagnosis) {

@@ -27,8 +27,8 @@ std::pair<int, int> complexity(const Refit& refit) {
   return {refit.own, constants};
 }
 
-/// Single effects of one family at one place. That something of the family is there may be sure where the votes
-/// are split among its members, which are then each other's rivals.
+/// Single effects of one family at one place. That something of the family is there may be sure where the
+/// votes are split among its members, which are then each other's rivals.
 bool is_of_family(const Refit& one, const Refit& other) {
   const auto effect = [](const Refit& refit) -> const model::EffectUse& {
     return refit.extended.model.effects[static_cast<std::size_t>(refit.added.front())];
@@ -79,8 +79,8 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
   return contenders;
 }
 
-/// Does the refit add a law that the stage has at the same place already as an uncertain number of the model? It
-/// would then be off by more than three of the deviations within which it is free.
+/// Does the refit add a law that the stage has at the same place already as an uncertain number of the model?
+/// It would then be off by more than three of the deviations within which it is free.
 bool repeats_number(const Stage& stage, const Refit& refit) {
   if (refit.added.size() != 1) {
     return false;
@@ -93,17 +93,16 @@ bool repeats_number(const Stage& stage, const Refit& refit) {
   });
 }
 
-/// Far above the floor a number beyond all that is stated of it is the first to make up for what is missing: it
-/// gives way to an effect that does nearly as well.
+/// Far above the floor a number beyond all that is stated of it is the first to make up for what is missing:
+/// it gives way to an effect that does nearly as well.
 std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std::vector<Refit>& refits,
                                                   std::vector<std::size_t> contenders, const Data& data,
                                                   const DiagnoseOptions& options, Choice& choice) {
   constexpr double kNearly = 1.25;
   while (!contenders.empty() && repeats_number(stage, refits[contenders.front()]) &&
          !is_below(options.far, refits[contenders.front()].estimate, data)) {
-    const auto other = std::find_if(contenders.begin(), contenders.end(), [&](std::size_t i) {
-      return !repeats_number(stage, refits[i]);
-    });
+    const auto other = std::find_if(contenders.begin(), contenders.end(),
+                                    [&](std::size_t i) { return !repeats_number(stage, refits[i]); });
     if (other == contenders.end() ||
         together(refits[*other]) > kNearly * together(refits[contenders.front()])) {
       break;

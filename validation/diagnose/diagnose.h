@@ -91,7 +91,8 @@ struct Rung {
   Stage stage;
   /// Of the windows on which its errors are, s: shorter ones are segments; infinite: whole windows.
   double length = std::numeric_limits<double>::infinity();
-  /// What `compare` gives of the rung's model, on all windows; of an answer whose rungs are all on whole ones.
+  /// What `compare` gives of the rung's model, on all windows; of an answer whose rungs are all on whole
+  /// ones.
   std::optional<Scores> compared{};
   const Scores& scores() const { return compared ? *compared : stage.estimate.scores; }
   double train() const { return scores().train; }
@@ -112,8 +113,9 @@ struct Diagnosis {
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened
   bool interrupted = false;
-  std::size_t windows = 0;      ///< on which the last errors are
-  std::vector<LostWindow> lost;  ///< left out from the beginning: the model as given cannot be integrated there
+  std::size_t windows = 0;  ///< on which the last errors are
+  std::vector<LostWindow>
+      lost;  ///< left out from the beginning: the model as given cannot be integrated there
   std::size_t cut_windows = 0;  ///< those of them that are not followed to their end (predict/reach.h)
   Stage final_stage;            ///< model with everything accepted, its parameters and estimate
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty

@@ -43,7 +43,7 @@ void Diagnoser::run(const model::Model& model, Diagnosis& diagnosis) {
   if (open.parameters.empty()) {
     look(options_.most_effects, diagnosis);
   } else {
-    look_with_own_numbers(given, {"own parameters fitted", fit_own(open), length_}, diagnosis);
+    look_with_own_numbers(given, {"model parameters fitted", fit_own(open), length_}, diagnosis);
   }
 }
 
@@ -56,7 +56,7 @@ bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosi
   }
   const bool promising = promises_much(open);
   if (promising) {
-    restart({given, {"own parameters fitted", fit_own(open), length_}}, diagnosis);
+    restart({given, {"model parameters fitted", fit_own(open), length_}}, diagnosis);
   }
   return promising;
 }
@@ -120,7 +120,8 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
   constexpr double kWorse = 1.2;
   if (judged(fitted.stage.estimate, data_) > kWorse * judged(given.stage.estimate, data_)) {
-    look(options_.most_effects, diagnosis);  // values that do not hold on the other motion are none of the robot
+    look(options_.most_effects,
+         diagnosis);  // values that do not hold on the other motion are none of the robot
     return;
   }
   if (!explains_much(given, fitted)) {
@@ -176,7 +177,7 @@ bool Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   const bool helps =
       judged(fitted.estimate, data_) < (1.0 - options_.simpler) * judged(stage.estimate, data_);
   if (helps) {
-    take("own parameters fitted", fitted, diagnosis);
+    take("model parameters fitted", fitted, diagnosis);
   }
   return helps;
 }
@@ -202,7 +203,7 @@ bool Diagnoser::promises_much(const Stage& open, double least) const {
 }
 
 Stage Diagnoser::fit_own(const Stage& open) const {
-  progress_("the model's own parameters", 0.0);
+  progress_("the model parameters", 0.0);
   constexpr double kTolerance = 1e-4;
   return fitted_anew(open, data_, open.estimate.x0, kTolerance);
 }

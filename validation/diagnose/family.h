@@ -5,8 +5,8 @@
 
 namespace plumbline::validation {
 
-/// Are both at one place, and of one family: friction, springs and stops, what a command becomes on its way to
-/// the torque, what a sensor adds, or what the ground is like?
+/// Are both at one place, and of one family: friction, springs and stops, what a command becomes on its way
+/// to the torque, what a sensor adds, or what the ground is like?
 bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other);
 
 }  // namespace plumbline::validation

@@ -9,8 +9,8 @@ namespace plumbline::validation {
 /// far into the windows as the last.
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
-/// The errors of every rung as `compare` gives them of its model, and those of the findings from them, so that an
-/// answer has one number for one thing; not where a rung is of segments.
+/// The errors of every rung as `compare` gives them of its model, and those of the findings from them, so
+/// that an answer has one number for one thing; not where a rung is of segments.
 void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
 /// A guess that the others make superfluous is dropped again: an early one, or a rival that took its place.

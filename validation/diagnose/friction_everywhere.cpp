@@ -88,8 +88,8 @@ std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
 
 }  // namespace
 
-std::optional<Group> friction_everywhere(const Tried& tried, const Data& data,
-                                         const DiagnoseOptions& options, const Progress& progress) {
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
+                                         const Progress& progress) {
   constexpr double kBetter = 0.8;
   constexpr std::size_t kLeast = 2;
   const auto count = std::count_if(tried.candidates.begin(), tried.candidates.end(), is_plain_friction);

@@ -1,5 +1,5 @@
-// Friction at every joint as one hypothesis: the commonest truth about a real robot, and one that a search for
-// one effect at a time meets late.
+// Friction at every joint as one hypothesis: the commonest truth about a real robot, and one that a search
+// for one effect at a time meets late.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Group {
 /// from. Those that end at their bound or within two deviations of it are taken out, and the others fitted
 /// anew. Nothing where fewer than two are left, or where the error that counts is not at least a fifth below
 /// that of the best single effect.
-std::optional<Group> friction_everywhere(const Tried& tried, const Data& data,
-                                         const DiagnoseOptions& options, const Progress& progress);
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
+                                         const Progress& progress);
 
 }  // namespace plumbline::validation

@@ -117,8 +117,7 @@ Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
                          tried.candidates.end());
   const Data quick = without_stiffness(stage, data);
   tried.hypotheses = screen(stage, tried.candidates, quick, progress);
-  tried.refits =
-      refit(stage, tried.candidates, tried.hypotheses, quick, options, progress, &tried.failed);
+  tried.refits = refit(stage, tried.candidates, tried.hypotheses, quick, options, progress, &tried.failed);
   return tried;
 }
 

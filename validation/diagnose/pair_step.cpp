@@ -37,8 +37,8 @@ Choice choose_pair(const Tried& first, const std::vector<Pair>& pairs, const Dat
 
 void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, const Data& data,
                    const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
-  const bool is_hopeless = diagnosis.accepted.size() > 1 &&
-                           !is_below(options.hopeless, diagnosis.final_stage.estimate, data);
+  const bool is_hopeless =
+      diagnosis.accepted.size() > 1 && !is_below(options.hopeless, diagnosis.final_stage.estimate, data);
   if (first.refits.empty() || is_hopeless ||
       is_below(options.finished, first.refits.front().estimate, data)) {
     return;

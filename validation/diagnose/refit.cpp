@@ -146,8 +146,8 @@ bool is_of_constants(const effects::Law& law) {
          law.declaration().name == "torque_constant_error";
 }
 
-/// The first start of each candidate in the order of their promise, `most` of them. Where much is missing many
-/// constants promise the same compromise: they take no more than three places.
+/// The first start of each candidate in the order of their promise, `most` of them. Where much is missing
+/// many constants promise the same compromise: they take no more than three places.
 std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& candidates,
                                               const std::vector<Hypothesis>& hypotheses, int most) {
   constexpr int kConstants = 3;
@@ -161,8 +161,7 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
     if (!seen.insert(hypothesis.candidate).second) {
       continue;
     }
-    const bool is_constant =
-        is_of_constants(*candidates[static_cast<std::size_t>(hypothesis.candidate)].law);
+    const bool is_constant = is_of_constants(*candidates[static_cast<std::size_t>(hypothesis.candidate)].law);
     constants += is_constant ? 1 : 0;
     if (!is_constant || constants <= kConstants) {
       chosen.push_back(&hypothesis);
@@ -195,8 +194,8 @@ std::vector<const Hypothesis*> other_starts(const std::vector<Refit>& refits,
   return others;
 }
 
-/// Laws of fewer fitted parameters at the place of the best refit that were not refitted: it may contain one of
-/// them and owe it what it explains.
+/// Laws of fewer fitted parameters at the place of the best refit that were not refitted: it may contain one
+/// of them and owe it what it explains.
 std::vector<const Hypothesis*> simpler_than(const Refit& best, const std::vector<Refit>& refits,
                                             const std::vector<Candidate>& candidates,
                                             const std::vector<Hypothesis>& hypotheses, const Stage& stage) {

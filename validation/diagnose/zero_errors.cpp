@@ -81,15 +81,16 @@ std::vector<std::vector<double>> depths(const model::Model& model, const Data& d
 /// The depth that all but the deepest twentieth of the samples stay above.
 double reached(std::vector<double> depth) {
   constexpr double kDeepest = 0.05;
-  const auto at = depth.begin() +
-                  static_cast<std::ptrdiff_t>((1.0 - kDeepest) * static_cast<double>(depth.size() - 1));
+  const auto at =
+      depth.begin() + static_cast<std::ptrdiff_t>((1.0 - kDeepest) * static_cast<double>(depth.size() - 1));
   std::nth_element(depth.begin(), at, depth.end());
   return *at;
 }
 
 /// Has a foot stood: are many of its depths near the deepest?
 bool has_stood(const std::vector<double>& depth) {
-  constexpr double kNear = 0.02;  // m: what zero errors of a few degrees do to a leg of a metre while it bends
+  constexpr double kNear =
+      0.02;  // m: what zero errors of a few degrees do to a leg of a metre while it bends
   constexpr double kMany = 0.15;
   if (depth.empty() || !std::isfinite(depth.front())) {
     return false;
@@ -120,7 +121,8 @@ Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<Z
   const auto stood = static_cast<Eigen::Index>(feet.size());
   Eigen::MatrixXd J(stood, count);  // by offsets in units of their deviations
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::VectorXd one = Eigen::VectorXd::Unit(count, i) * kStep * errors[static_cast<std::size_t>(i)].deviation;
+    const Eigen::VectorXd one =
+        Eigen::VectorXd::Unit(count, i) * kStep * errors[static_cast<std::size_t>(i)].deviation;
     const std::vector<std::vector<double>> there = depths(with_offsets(model, errors, one), data);
     for (Eigen::Index f = 0; f < stood; ++f) {
       const std::size_t foot = feet[static_cast<std::size_t>(f)];

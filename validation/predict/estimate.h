@@ -47,8 +47,8 @@ struct EstimateOptions {
 
 /// Ceres: minimises the squared residuals of the train windows over theta (within bounds) and each window's
 /// initial state; then, with theta fixed, the initial states of the held-out windows.
-/// start_x0 may be empty (from the measurements). A window that cannot be integrated at the end has an infinite
-/// error, and so has its role.
+/// start_x0 may be empty (from the measurements). A window that cannot be integrated at the end has an
+/// infinite error, and so has its role.
 Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                   const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                   const EstimateOptions& options);

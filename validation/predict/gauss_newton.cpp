@@ -312,9 +312,9 @@ class Search {
   bool stuck_ = false;
 };
 
-/// Once more from where a search got stuck, with derivatives by differences of whole predictions: where a law's
-/// corners are sharper than the samples the linearisation of a piece promises what is not there. Only of few
-/// unknowns, because each costs a prediction of every window.
+/// Once more from where a search got stuck, with derivatives by differences of whole predictions: where a
+/// law's corners are sharper than the samples the linearisation of a piece promises what is not there. Only
+/// of few unknowns, because each costs a prediction of every window.
 Estimate unstuck(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Estimate stuck,
                  const EstimateOptions& options) {
   constexpr std::size_t kMostUnknowns = 24;

@@ -9,8 +9,8 @@
 namespace plumbline::validation {
 
 // The integrator stopped there: the points become nodes, so that no piece runs across one.
-// Contacts that are more than the samples could show none of: a law that chatters is no explanation of them, and
-// its slopes cost as much as all others together.
+// Contacts that are more than the samples could show none of: a law that chatters is no explanation of them,
+// and its slopes cost as much as all others together.
 void Predictor::add_jumps(const std::vector<integrate::Event>& events, double t0) {
   constexpr std::size_t kSome = 30;
   for (; events_seen_ < events.size(); ++events_seen_) {

@@ -48,8 +48,7 @@ Data without_lost(const model::Model& model, const Data& data, std::vector<LostW
     if (data.has(role) && !kept.has(role)) {
       const auto first = std::find_if(reasons.begin(), reasons.end(),
                                       [](const std::string& reason) { return !reason.empty(); });
-      const LostWindow one =
-          described(data, static_cast<std::size_t>(first - reasons.begin()), *first);
+      const LostWindow one = described(data, static_cast<std::size_t>(first - reasons.begin()), *first);
       throw std::runtime_error(one.trial + ": no window can be integrated; the one from " +
                                std::to_string(one.from) + " s: " + one.reason);
     }

@@ -16,8 +16,8 @@ struct LostWindow {
 };
 
 /// The data without the windows that the model, as it is, cannot be integrated through from where the
-/// measurements begin. One that is lost costs this window, not the whole answer; which ones is told to `lost`.
-/// Throws std::runtime_error, with the first reason and its trial, where none is left of a role.
+/// measurements begin. One that is lost costs this window, not the whole answer; which ones is told to
+/// `lost`. Throws std::runtime_error, with the first reason and its trial, where none is left of a role.
 Data without_lost(const model::Model& model, const Data& data, std::vector<LostWindow>& lost);
 
 }  // namespace plumbline::validation

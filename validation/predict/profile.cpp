@@ -15,8 +15,8 @@ namespace {
 constexpr double kDeviations = 2.0;  // where the cost is looked at
 constexpr double kBetter = 0.5;      // of the cost at the floor: less does not move a value by a deviation
 
-/// Change of a train cost that counts: kBetter in units of the residuals' mean square. Far above the floor the
-/// residuals are that much larger, and so is what a deviation changes.
+/// Change of a train cost that counts: kBetter in units of the residuals' mean square. Far above the floor
+/// the residuals are that much larger, and so is what a deviation changes.
 double better_than(const Data& data, double cost) {
   double residuals = 0.0;
   for (const int w : data.windows_of(Role::train)) {
@@ -248,8 +248,7 @@ class Profile {
     FreeParameter& pinned = held[static_cast<std::size_t>(p)];
     pinned.lower = pinned.upper = theta[p];
     try {
-      const Estimate found =
-          gauss_newton(pool_, held, theta, from.estimate.x0,
+      const Estimate found = gauss_newton(pool_, held, theta, from.estimate.x0,
                                           {kIterations, tolerance_of(pool_.data(), at_.cost), false});
       return Held{std::abs(to), found.cost - at_.cost, found};
     } catch (const Stopped&) {

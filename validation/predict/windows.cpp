@@ -182,8 +182,7 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
       }
     }
     add_sample(k + 1, integrator.state());
-    if (static_cast<double>(integrator.summary().steps) >
-        most_steps * (static_cast<double>(k) + burst)) {
+    if (static_cast<double>(integrator.summary().steps) > most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
   }

@@ -94,9 +94,9 @@ StepResult equation_22(const Recipe& recipe, const Step& step, const PostureRead
                        const MethodOptions& options) {
   const model::Model& model = recipe.model(step.model).model;
   const Equation22Method& method = step.equation_22;
-  const Eigen::VectorXd leg_shape = 0.5 * readings.sensors.row(model.sensor_index(method.knee)).transpose();
+  const Eigen::VectorXd shape = 0.5 * readings.sensors.row(model.sensor_index(method.knee)).transpose();
   const Eigen::VectorXd spring = readings.sensors.row(model.sensor_index(method.spring)).transpose();
-  const Regression regression = equation_22(leg_shape, spring, readings.weight, method.ratio);
+  const Regression regression = equation_22(shape, spring, readings.weight, method.ratio);
   StepResult result;
   result.step = step.name;
   result.windows = static_cast<int>(spring.size());

@@ -62,11 +62,11 @@ Regression equation_14(double rotor, const Eigen::VectorXd& pulleys, const Eigen
   return result;
 }
 
-Regression equation_22(const Eigen::VectorXd& leg_shape, const Eigen::VectorXd& spring,
+Regression equation_22(const Eigen::VectorXd& shape, const Eigen::VectorXd& spring,
                        const Eigen::VectorXd& weight, double ratio) {
   Eigen::MatrixXd X(spring.size(), 2);
   X << spring, Eigen::VectorXd::Ones(spring.size());
-  const Eigen::VectorXd torque = weight.cwiseProduct(leg_shape.array().sin().abs().matrix()) / ratio;
+  const Eigen::VectorXd torque = weight.cwiseProduct(shape.array().sin().abs().matrix()) / ratio;
   return least_squares(X, torque);
 }
 

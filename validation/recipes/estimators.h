@@ -30,9 +30,9 @@ Regression equation_14(double rotor, const Eigen::VectorXd& pulleys, const Eigen
                        const Eigen::VectorXd& deviations);
 
 /// Equation 22 for many postures, with a preload as Figure 17 has it:
-///   weight sin(leg_shape) / ratio = K_B q_Bsp + preload.
+///   weight sin(shape) / ratio = K_B q_Bsp + preload.
 /// Values: K_B (N m/rad), preload (N m).
-Regression equation_22(const Eigen::VectorXd& leg_shape, const Eigen::VectorXd& spring,
+Regression equation_22(const Eigen::VectorXd& shape, const Eigen::VectorXd& spring,
                        const Eigen::VectorXd& weight, double ratio);
 
 /// Every `every`-th value, and the mean of each group of `every`.

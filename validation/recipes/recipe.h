@@ -84,9 +84,9 @@ struct Equation22Method {
   std::string stiffness, preload;  ///< unknowns
 };
 
-/// The hopping controller on the robot in place of recorded commands: short runs from drawn starts.
-struct HopsMethod {
-  std::string controller;       ///< file
+/// A scenario's controller on the robot in place of recorded commands: short runs from drawn starts.
+struct RunsMethod {
+  std::string scenario;         ///< file
   int starts = 1;               ///< runs, one trial each
   double from = 0.0, to = 0.0;  ///< the stretch of each run that is used, s
 };
@@ -105,7 +105,7 @@ struct Step {
   Equation14Method equation_14;
   Equation22Method equation_22;
   std::optional<Postures> postures;
-  std::optional<HopsMethod> hops;
+  std::optional<RunsMethod> runs;
   Place_in_file place;
 };
 

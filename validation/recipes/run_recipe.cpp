@@ -41,7 +41,7 @@ StepData measure(const Recipe& recipe, const Step& step, std::size_t index, cons
   } else if (step.postures) {
     data.postures = *step.postures;
     data.readings = twin_postures(recipe, step, truth, seed_of(*options.seed, index));
-  } else if (step.hops || !step.experiments.empty()) {
+  } else if (step.runs || !step.experiments.empty()) {
     data.trials = twin_trials(recipe, step, truth, seed_of(*options.seed, index), options.method.stop);
   }
   return data;
@@ -76,7 +76,7 @@ void carry_on(const StepResult& result, KnowledgeMap& knowledge) {
 
 void check_seed(const Recipe& recipe, const RecipeOptions& options) {
   for (const Step& step : recipe.steps) {
-    if (!options.seed && (step.hops || step.postures || !step.experiments.empty())) {
+    if (!options.seed && (step.runs || step.postures || !step.experiments.empty())) {
       throw InputError(step.place, "step \"" + step.name + "\", which is played by a twin, and no seed",
                        "--seed for the twin's true values, or recorded trials");
     }
@@ -85,7 +85,7 @@ void check_seed(const Recipe& recipe, const RecipeOptions& options) {
 
 bool needs_truth(const Recipe& recipe) {
   for (const Step& step : recipe.steps) {
-    if (step.hops || step.postures || !step.experiments.empty()) {
+    if (step.runs || step.postures || !step.experiments.empty()) {
       return true;
     }
   }

@@ -68,21 +68,21 @@ void read_known(const YamlNode& node, const Recipe& recipe, const std::set<std::
   }
 }
 
-HopsMethod read_hops(const YamlNode& node) {
-  node.allow_keys({"controller", "starts", "from", "to"});
-  HopsMethod hops;
-  hops.controller = existing_file(node.at("controller"));
+RunsMethod read_runs(const YamlNode& node) {
+  node.allow_keys({"scenario", "starts", "from", "to"});
+  RunsMethod runs;
+  runs.scenario = existing_file(node.at("scenario"));
   const double starts = node.at("starts").number();
   if (!(starts >= 1.0 && starts <= 1000.0) || starts != std::floor(starts)) {
     node.at("starts").refuse("a whole number from 1 to 1000");
   }
-  hops.starts = static_cast<int>(starts);
-  hops.from = read_physical(node.at("from"), "s", "the time");
-  hops.to = read_physical(node.at("to"), "s", "the time");
-  if (!(hops.to > hops.from) || hops.from < 0.0) {
+  runs.starts = static_cast<int>(starts);
+  runs.from = read_physical(node.at("from"), "s", "the time");
+  runs.to = read_physical(node.at("to"), "s", "the time");
+  if (!(runs.to > runs.from) || runs.from < 0.0) {
     node.at("to").refuse("a time above `from`");
   }
-  return hops;
+  return runs;
 }
 
 Postures read_postures(const YamlNode& node, const model::Model& model) {
@@ -142,8 +142,8 @@ void read_data(const YamlNode& node, const Recipe& recipe, const std::vector<std
     step.data_of = known_name(node.at(found), names(recipe.steps), "earlier step");
   } else if (found == "postures") {
     step.postures = read_postures(node.at(found), robot);
-  } else if (found == "hops") {
-    step.hops = read_hops(node.at(found));
+  } else if (found == "runs") {
+    step.runs = read_runs(node.at(found));
   } else {
     std::vector<std::string>& files = found == "trials" ? step.trials : step.experiments;
     for (const YamlNode& item : node.at(found).items()) {
@@ -226,9 +226,9 @@ void read_fit(const YamlNode& node, const Recipe& recipe, const std::set<std::st
 void read_window_fit(const YamlNode& node, const Recipe& recipe, const std::set<std::string>& given,
                      Step& step) {
   node.allow_keys({"step", "title", "source", "method", "carried", "model", "robot", "experiments", "trials",
-                   "hops", "data_of", "window", "free", "known"});
+                   "runs", "data_of", "window", "free", "known"});
   read_models(node, recipe, step);
-  read_data(node, recipe, {"experiments", "trials", "hops", "data_of"}, step);
+  read_data(node, recipe, {"experiments", "trials", "runs", "data_of"}, step);
   if (const auto window = node.find("window")) {
     step.window = read_physical(*window, "s", "the window");
     if (!(step.window > 0.0)) {

@@ -5,16 +5,15 @@
 #include <random>
 #include <stdexcept>
 
-#include "validation/hopping/hop_statistics.h"
-#include "validation/hopping/hopping_file.h"
-#include "validation/hopping/recorded_trial.h"
+#include "validation/gait/gait_run.h"
 #include "validation/recipes/linked.h"
+#include "validation/twin/recorded_run.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {
 
-constexpr double kTolerance = 1e-8;  // of hops: errors far below any sensor's resolution
+constexpr double kTolerance = 1e-8;  // of runs: errors far below any sensor's resolution
 constexpr double kFarthest = 2.0;    // standard deviations of a draw
 
 double drawn(std::mt19937_64& random) {
@@ -35,32 +34,40 @@ Table stretch_of(const Table& trace, Eigen::Index first, Eigen::Index count) {
   return stretch;
 }
 
-/// The stretch of a hopping run as a trial: what sensors read, what was commanded.
-Trial trial_of(const model::Model& robot, const Table& trace, const HopsMethod& hops, double period,
-               std::uint64_t seed) {
-  const auto first = static_cast<Eigen::Index>(std::lround(hops.from / period));
-  const auto count = static_cast<Eigen::Index>(std::lround(hops.to / period)) - first;
-  if (first + count > trace.rows()) {
-    throw std::runtime_error("the twin fell before the hops of the recipe were over");
+/// The stretch of a run as a trial: what sensors read, what was commanded.
+Trial trial_of(const run::LoadedScenario& loaded, const Table& record, const RunsMethod& runs,
+               double period) {
+  const auto first = static_cast<Eigen::Index>(std::lround(runs.from / period));
+  const auto count = static_cast<Eigen::Index>(std::lround(runs.to / period)) - first;
+  if (first + count > record.rows()) {
+    throw std::runtime_error("the twin fell before the runs of the recipe were over");
   }
-  Trial trial = recorded_trial(robot, stretch_of(trace, first, count), seed);
-  trial.name = "hops";
-  return trial;
+  return recorded_run(loaded.model, stretch_of(record, first, count), loaded.scenario);
 }
 
-std::vector<Trial> hop_trials(const model::Model& robot, const HopsMethod& hops, std::uint64_t seed,
+std::vector<Trial> run_trials(const model::Model& robot, const RunsMethod& runs, std::uint64_t seed,
                               const StopFlag* stop) {
-  const controllers::HoppingConfig config = read_hopping(hops.controller);
-  HopOptions options;
-  options.trace = true;
-  options.stop = stop;
-  options.longest = hops.to + 0.01;
-  options.integrator.set_tolerance(kTolerance);
-  std::mt19937_64 random(seed);
+  run::LoadedScenario loaded = run::read_scenario(runs.scenario);
+  loaded.model = robot;
+  loaded.scenario.longest = runs.to + 0.01;
   std::vector<Trial> trials;
-  for (const HopRun& run : hop_from(robot, config, draw_starts(hops.starts, seed), options)) {
-    trials.push_back(trial_of(robot, run.trace, hops, config.period, random()));
-    trials.back().name += std::to_string(trials.size());
+  std::mt19937_64 random(seed);
+  for (const run::LoadedScenario& one : from_starts(loaded, runs.starts, seed)) {
+    run::RunOptions options;
+    options.trace = true;
+    options.sensors.seed = random();
+    options.integrator.set_tolerance(kTolerance);
+    options.watch = [stop](const run::SampledRun&) {
+      if (stop != nullptr && stop->raised) {
+        throw Stopped();
+      }
+      return false;
+    };
+    const run::RunRecord record =
+        run::run_scenario(one.model, one.scenario, one.controller ? &*one.controller : nullptr, options);
+    const double period = one.controller ? one.controller->period : options.period;
+    trials.push_back(trial_of(one, record.record, runs, period));
+    trials.back().name = "run" + std::to_string(trials.size());
   }
   return trials;
 }
@@ -81,8 +88,8 @@ Truth draw_truth(const Recipe& recipe, std::uint64_t seed) {
 std::vector<Trial> twin_trials(const Recipe& recipe, const Step& step, const Truth& truth, std::uint64_t seed,
                                const StopFlag* stop) {
   const model::Model robot = with_unknowns(recipe.model(step.robot), truth);
-  if (step.hops) {
-    return hop_trials(robot, *step.hops, seed, stop);
+  if (step.runs) {
+    return run_trials(robot, *step.runs, seed, stop);
   }
   std::vector<Trial> trials;
   TwinOptions options;

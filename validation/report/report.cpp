@@ -70,6 +70,12 @@ json forces_json(const Stage& stage, const Data& data) {
   return list;
 }
 
+/// How far off the stage's predictions are after a while.
+json horizons_json(const Stage& stage, const Data& data) {
+  PredictorPool pool(fitted_model(stage), data);
+  return to_json(horizon_errors(pool, {}, stage.estimate));
+}
+
 /// By model of the ladder, by trial.
 json whole_json(const ReportContent& content, const Data& data, const Progress& progress) {
   json list = json::array();
@@ -144,6 +150,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
               {"ladder", json::array()},
               {"whole_trials", whole_json(content, data, progress)},
               {"published", published_json(content.given)},
+              {"horizons", json::array()},
               {"trials", json::array()},
               {"diagnosis", content.diagnosis},
               {"unexplained", json::array()},
@@ -159,6 +166,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
     progress("the force that is not explained", 0.4 + 0.2 * static_cast<double>(d));
     report["drawn"].push_back(drawn_name(content, d == 0));
     report["unexplained"].push_back(forces_json(*drawn[d].stage, data));
+    report["horizons"].push_back(horizons_json(*drawn[d].stage, data));
   }
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     progress("drawing " + data.trials[t].name,

@@ -63,6 +63,21 @@ nlohmann::json to_json(const Finding& finding) {
 
 }  // namespace
 
+nlohmann::json to_json(const std::vector<HorizonError>& errors) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const HorizonError& one : errors) {
+    json.push_back({{"trial", one.trial},
+                    {"channel", one.channel},
+                    {"role", to_string(one.role)},
+                    {"unit", one.unit},
+                    {"horizon", one.horizon},
+                    {"rms", json_number(one.rms)},
+                    {"windows", one.windows},
+                    {"lost", one.lost}});
+  }
+  return json;
+}
+
 nlohmann::json to_json(const UnexplainedForce& force) {
   nlohmann::json json{{"trial", force.trial},
                       {"at", force.at},
@@ -138,7 +153,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["cut_windows"] = diagnosis.cut_windows;
   json["test_before"] = test_or_null(diagnosis.test_before);
   json["test_after"] = test_or_null(diagnosis.test_after);
-  for (const char* key : {"accepted", "own_parameters", "ranking", "leads", "pairs", "ladder"}) {
+  for (const char* key : {"accepted", "model_parameters", "ranking", "leads", "pairs", "ladder"}) {
     json[key] = nlohmann::json::array();
   }
   for (const Finding& finding : diagnosis.accepted) {
@@ -154,19 +169,19 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
     json["pairs"].push_back(to_json(row));
   }
   for (const OwnParameter& own : own_values(diagnosis.final_stage)) {
-    json["own_parameters"].push_back({{"parameter", own.label},
-                                      {"unit", own.unit},
-                                      {"stated", own.stated},
-                                      {"stated_deviation", own.stated_deviation},
-                                      {"value", own.value},
-                                      {"shift", own.shift()}});
+    json["model_parameters"].push_back({{"parameter", own.label},
+                                        {"unit", own.unit},
+                                        {"stated", own.stated},
+                                        {"stated_deviation", own.stated_deviation},
+                                        {"value", own.value},
+                                        {"shift", own.shift()}});
   }
   for (const Rung& rung : diagnosis.ladder) {
     json["ladder"].push_back({{"name", rung.name},
                               {"length", json_number(rung.length)},
                               {"train", rung.train()},
                               {"held_out", rung.held_out()},
-                              {"foretold", rung.foretold()}});
+                              {"predictive", rung.foretold()}});
   }
   json["unexplained_forces"] = nlohmann::json::array();
   for (const UnexplainedForce& one : left) {

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "validation/compare/compare.h"
+#include "validation/compare/horizon.h"
 #include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/unexplained.h"
 
 namespace plumbline::validation {
 
 nlohmann::json to_json(const Comparison& comparison);
+nlohmann::json to_json(const std::vector<HorizonError>& errors);
 nlohmann::json to_json(const UnexplainedForce& force);
 nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left);
 

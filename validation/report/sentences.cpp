@@ -59,17 +59,17 @@ std::string moved_numbers(const Diagnosis& diagnosis) {
   return text.empty() ? text : text + " deviations";
 }
 
-/// "the held-out error falls from 151.20 to 65.50 times the floor: 81.2 % of the squared error above the floor is
-/// explained."
+/// "the held-out error falls from 151.20 to 65.50 times the floor: 81.2 % of the squared error above the
+/// floor is explained."
 std::string fall_sentence(const Diagnosis& diagnosis) {
   const Judged first = judged(diagnosis.ladder.front());
   const Judged last = judged(diagnosis.ladder.back());
   const double before = first.error * first.error - 1.0;
   const double after = std::max(last.error * last.error - 1.0, 0.0);
-  const std::string share =
-      before > after
-          ? fmt::format(": {:.1f} % of the squared error above the floor is explained", 100.0 * (1.0 - after / before))
-          : "";
+  const std::string share = before > after
+                                ? fmt::format(": {:.1f} % of the squared error above the floor is explained",
+                                              100.0 * (1.0 - after / before))
+                                : "";
   return fmt::format("the {} error {} from {:.2f} to {:.2f} times the floor{}.", last.role,
                      last.error <= first.error ? "falls" : "rises", first.error, last.error, share);
 }

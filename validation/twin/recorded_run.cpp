@@ -16,9 +16,9 @@ const Eigen::VectorXd& values_of(const Table& record, const std::string& name) {
 
 }  // namespace
 
-Trial recorded_run(const model::Model& model, const Table& record, const std::string& title) {
+Trial recorded_run(const model::Model& model, const Table& record, const run::Scenario& scenario) {
   Trial trial;
-  trial.title = title;
+  trial.title = scenario.title;
   trial.model_file = model.file;
   trial.time = values_of(record, "t");
   if (trial.samples() < 2) {

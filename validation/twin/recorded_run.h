@@ -1,7 +1,7 @@
 // A run as the robot's own sensors recorded it.
 #pragma once
 
-#include "simulator/model/model.h"
+#include "simulator/run/scenario.h"
 #include "simulator/trace/table.h"
 #include "validation/trial/trial.h"
 
@@ -10,6 +10,6 @@ namespace plumbline::validation {
 /// The trial of a run's record (run::Recorder): commands as they were given, readings of all sensors and
 /// contact switches as the controller saw them. Throws InputError when the record is shorter than two
 /// samples.
-Trial recorded_run(const model::Model& model, const Table& record, const std::string& title);
+Trial recorded_run(const model::Model& model, const Table& record, const run::Scenario& scenario);
 
 }  // namespace plumbline::validation

@@ -47,7 +47,7 @@ void add_motors(const model::Model& model, std::vector<Unknown>& list) {
   }
 }
 
-/// The rig's n-th effect of this name at this place.
+/// The rig's effect of this name at this place; nullptr: none.
 Hidden* effect_of(Rig& rig, const std::string& effect, const std::string& at) {
   for (Hidden& one : rig.effects) {
     if (one.effect == effect && one.at == at) {

@@ -335,8 +335,7 @@ Motion run_in_mujoco(const Rig& rig, const std::string& robot, const std::vector
     command(k, readings_of(rig, motion.positions.col(k)), given);
     motion.commands.col(k) = given;
     for (int s = 0; s < steps; ++s) {
-      delivery.deliver(motion.commands.leftCols(k + 1), static_cast<double>(k) * period + s * kStep, period,
-                       now.commands);
+      delivery.deliver(motion.commands, static_cast<double>(k) * period + s * kStep, period, now.commands);
       mj_step(model.get(), data.get());
       for (Eigen::Index m = 0; m < motors; ++m) {
         const Motor& motor = rig.motors[static_cast<std::size_t>(m)];

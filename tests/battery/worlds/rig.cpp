@@ -112,6 +112,7 @@ Rig hopper(const model::Model& model) {
   rig.grounds = {ground};
   for (const model::ContactSwitch& one : model.switches) {
     rig.switches.push_back(one.name);
+    rig.switch_force = one.threshold;
   }
   return rig;
 }

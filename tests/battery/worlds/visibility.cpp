@@ -113,7 +113,8 @@ double visibility(const Recording& recording, const Rig& without, const std::vec
     squares += both.col(numbers).squaredNorm();
     rows += static_cast<double>(r.size());
   }
-  const double left = std::max(squares - b.dot(A.ldlt().solve(b)), 0.0);
+  const double explained = numbers > 0 ? b.dot(A.ldlt().solve(b)) : 0.0;
+  const double left = std::max(squares - explained, 0.0);
   return std::sqrt(1.0 + left / rows);
 }
 

@@ -37,8 +37,8 @@ function drawUntold() {
     if (finding.rivals.length) lines.push(`${labelOf(finding)} from ${finding.rivals.map(labelOf).join(", ")}.`);
   }
   if (report.diagnosis && report.diagnosis.verdict === "unexplained") lines.push("Which law explains the rest: nothing in the catalogue does.");
-  if (lines.length === 0) lines.push(report.estimates.parameters.length ? "Every one of the fitted parameters is told by these data." : "Nothing was asked of them.");
-  $("untold").replaceChildren(...lines.map((text) => make("li", {}, text)));
+  if (lines.length === 0) lines.push(report.estimates.parameters.length ? "All fitted parameters are identifiable from these data." : "Nothing was asked of them.");
+  $("not-identifiable").replaceChildren(...lines.map((text) => make("li", {}, text)));
 }
 
 function quantityRow(what, name, quantity) {

@@ -89,8 +89,9 @@ function start() {
   const drawTrial = () => { drawTrialChoice(); drawCharts(); drawStrip(); drawWorst(); drawSpectra(); drawForces(); };
   drawTrial();
   drawHeat();
+  drawHorizons();
   on("trial", drawTrial);
-  on("model", () => { drawSwitch(); drawCharts(); drawStrip(); drawWorst(); drawHeat(); drawForces(); });
+  on("model", () => { drawSwitch(); drawCharts(); drawStrip(); drawWorst(); drawHeat(); drawHorizons(); drawForces(); });
   on("range", () => { applyRange(); drawStrip(); drawWorst(); });
   window.addEventListener("resize", onceAFrame(() => { drawFixed(); drawStrip(); resizeCharts(0); resizeSpectra(0); }));
   window.addEventListener("beforeprint", () => printing(true));

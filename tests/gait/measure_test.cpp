@@ -1,0 +1,73 @@
+// Measures of a cycle, worked out by hand.
+#include "validation/gait/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/gait/mabel_hops.h"
+
+namespace plumbline::validation {
+namespace {
+
+Measure measure(Measure::Kind kind, std::vector<std::string> channels = {"travel"}) {
+  Measure one;
+  one.kind = kind;
+  one.channels = std::move(channels);
+  return one;
+}
+
+TEST(Measure, AreWhatTheirNamesSay) {
+  const run::LoadedScenario loaded = hopping(mabel("mabel_planar.yaml"));
+  const Channels channels(loaded, {"travel", "u_mLA_left", "contact_left"}, {});
+  EXPECT_EQ(channels.unit(0), "m");
+  EXPECT_EQ(channels.unit(1), "N m");
+  Eigen::MatrixXd rows(3, 3);
+  rows << 1.0, 9.0, 1.0,  //
+      2.0, -4.0, 1.0,     //
+      -1.0, 3.0, 0.0;
+  const Eigen::Vector3d times(0.0, 0.5, 1.5);
+  const Eigen::VectorXd time = times;
+  const std::vector<double> touchdowns{1.5, 1.48};
+  const CycleSamples cycle{rows, time, touchdowns};
+  const auto value = [&](const Measure& one) { return value_of(one, channels, cycle); };
+  using Kind = Measure::Kind;
+  EXPECT_DOUBLE_EQ(value(measure(Kind::duration)), 1.5);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::change)), -2.0);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::rate)), -2.0 / 1.5);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::at_end)), -1.0);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::swing)), 3.0);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::integral)), 0.5 * 1.5 + 1.0 * 0.5);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::mean)), 1.25 / 1.5);
+  EXPECT_NEAR(value(measure(Kind::touchdown_gap)), 0.02, 1e-15);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::largest, {"u_mLA_left"})),
+                   4.0);  // the first sample is the cycle's before
+  Measure limit = measure(Kind::time_at_limit, {"u_mLA_left"});
+  limit.limit = 4.0;
+  EXPECT_DOUBLE_EQ(value(limit), 0.5);
+  EXPECT_DOUBLE_EQ(value(measure(Kind::share_down, {"contact_left"})), 1.0 / 1.5);
+  EXPECT_EQ(unit_of(measure(Kind::rate), channels, {}), "m/s");
+}
+
+TEST(Measure, SpreadIsMeanAndStandardDeviation) {
+  const Spread spread = spread_of({2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0});
+  EXPECT_DOUBLE_EQ(spread.mean, 5.0);
+  EXPECT_NEAR(spread.deviation, std::sqrt(32.0 / 7.0), 1e-12);
+}
+
+TEST(Cycles, SettledOnesLeaveOutTheTransientAndTheFall) {
+  const Gait gait;
+  std::vector<GaitRun> runs(3);
+  runs[0].cycles.resize(20);
+  EXPECT_EQ(settled_cycles(gait, {runs[0]}).size(), 15U);
+  runs[0].run.fell = true;
+  runs[1].cycles.resize(4);
+  runs[1].run.fell = true;
+  EXPECT_EQ(settled_cycles(gait, runs).size(), 12U);
+  const Share share = share_of("x", runs, 10);
+  EXPECT_EQ(share.sustained, 1);
+  EXPECT_EQ(share.median_cycles, 4.0);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,72 @@
+#include "validation/api/adding.h"
+
+#include <algorithm>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "validation/fit/scales.h"
+#include "validation/report/json_number.h"
+#include "validation/report/model_json.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::api {
+namespace {
+
+effects::Scales scales_for(const model::Model& model, const model::EffectUse& use,
+                           const std::optional<validation::Trial>& trial) {
+  if (trial && trial->role == validation::Role::train) {
+    const validation::Data data({*trial}, {});
+    return validation::scales_at(model, use.law, use.at, data);
+  }
+  return validation::scales_at(model, *use.law, use.at);
+}
+
+}  // namespace
+
+bool is_set(const Addition& addition, const std::string& parameter) {
+  return std::any_of(addition.set.begin(), addition.set.end(), [&](const std::string& setting) {
+    return setting.compare(0, parameter.size() + 1, parameter + "=") == 0;
+  });
+}
+
+model::EffectUse added_effect(const Addition& addition, const model::Model& model,
+                              const std::optional<validation::Trial>& trial) {
+  std::string text = addition.effect + "@" + addition.at + ":";
+  for (std::size_t i = 0; i < addition.set.size(); ++i) {
+    text += (i == 0 ? "" : ",") + addition.set[i];
+  }
+  model::EffectUse use = validation::parse_effect(text, model, model::known_effects());
+  const std::vector<effects::Values> starts = use.law->starts(scales_for(model, use, trial));
+  const effects::Values& start = starts[starts.size() / 2];
+  for (std::size_t p = 0; p < use.values.size(); ++p) {
+    const effects::Parameter& parameter = use.law->declaration().parameters[p];
+    if (!is_set(addition, parameter.name)) {
+      use.values[p].value = std::clamp(start[p], parameter.lower, parameter.upper);
+    }
+  }
+  return use;
+}
+
+nlohmann::json to_json(const model::EffectUse& use, const model::Model& model, const Addition& addition) {
+  nlohmann::json json{{"base", model.file},
+                      {"effect", addition.effect},
+                      {"at", addition.at},
+                      {"changes_nothing", use.law->is_null(use.numbers().data())},
+                      {"values", nlohmann::json::array()}};
+  for (std::size_t p = 0; p < use.values.size(); ++p) {
+    const effects::Parameter& parameter = use.law->declaration().parameters[p];
+    json["values"].push_back({{"name", parameter.name},
+                              {"value", validation::json_number(use.values[p].value)},
+                              {"unit", validation::unit_of(model, use, p)},
+                              {"set", is_set(addition, parameter.name)},
+                              {"structural", parameter.structural}});
+  }
+  return json;
+}
+
+void save(const model::EffectUse& use, const model::Model& model, const std::string& file) {
+  model::write_overlay(file, model.file, {{use.law->declaration().name, use.at, use.numbers()}}, {},
+                       use.label() + ", added with start values", model::known_effects());
+}
+
+}  // namespace plumbline::api

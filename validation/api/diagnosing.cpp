@@ -1,0 +1,67 @@
+#include "validation/api/diagnosing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "validation/diagnose/found_values.h"
+#include "validation/report/result_json.h"
+
+namespace plumbline::api {
+namespace {
+
+using validation::Diagnosis;
+using validation::Verdict;
+
+constexpr double kLittle = 0.02;  // share of the squared error that is not worth a look at the forces
+
+/// Does the model have an effect of this kind at the same place?
+bool has_one(const model::Model& model, const model::EffectUse& use) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [&](const model::EffectUse& other) { return other.label() == use.label(); });
+}
+
+}  // namespace
+
+Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue,
+                const validation::DiagnoseOptions& options, const validation::Progress& progress) {
+  Answer answer;
+  answer.diagnosis = validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
+  const Diagnosis& diagnosis = answer.diagnosis;
+  if (!diagnosis.interrupted &&
+      (diagnosis.unexplained_share > kLittle || diagnosis.verdict == Verdict::unexplained)) {
+    answer.left = validation::unexplained_forces(diagnosis.final_stage, *loaded.data);
+  }
+  return answer;
+}
+
+nlohmann::json to_json(const Answer& answer) { return validation::to_json(answer.diagnosis, answer.left); }
+
+void save(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
+  std::vector<model::AddedEffect> added;
+  std::vector<model::NewValue> values;
+  validation::Stage stage = diagnosis.final_stage;
+  stage.model = validation::fitted_model(stage);
+  const std::size_t own = given.effects.size();
+  for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
+    const model::EffectUse& use = stage.model.effects[e];
+    const effects::Values numbers = use.numbers();
+    if (!use.law->is_null(numbers.data())) {
+      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use),
+                       validation::found_deviations(diagnosis, static_cast<int>(e))});
+    }
+  }
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    const auto& parameter = stage.parameters[p];
+    if (parameter.id.effect < static_cast<int>(own)) {
+      const double deviation = validation::found_deviation(diagnosis, parameter.id);
+      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)],
+                        std::isfinite(deviation) ? deviation : 0.0, parameter.unit, "diagnose"});
+    }
+  }
+  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
+                       model::known_effects());
+}
+
+}  // namespace plumbline::api

@@ -1,0 +1,28 @@
+// A diagnosis with what it leaves unexplained, and as a model file.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "validation/api/loading.h"
+#include "validation/diagnose/diagnose.h"
+#include "validation/diagnose/unexplained.h"
+
+namespace plumbline::api {
+
+struct Answer {
+  validation::Diagnosis diagnosis;
+  std::vector<validation::UnexplainedForce> left;  ///< empty when little is left or the work was stopped
+};
+
+Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue,
+                const validation::DiagnoseOptions& options, const validation::Progress& progress);
+
+/// docs/formats/json-results.md, `diagnose`.
+nlohmann::json to_json(const Answer& answer);
+
+/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
+void save(const validation::Diagnosis& diagnosis, const model::Model& given, const std::string& file);
+
+}  // namespace plumbline::api
