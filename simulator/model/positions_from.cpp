@@ -12,8 +12,20 @@ constexpr double kWeak = 1e-6;
 }  // namespace
 
 Observation observe_sensor(const Plant& plant, int sensor) {
-  const double floor = plant.model().sensors[static_cast<std::size_t>(sensor)].floor();
-  return {plant.output_map().row(sensor), plant.output_offset()[sensor], std::max(floor, kNoFloor)};
+  const Sensor& of = plant.model().sensors[static_cast<std::size_t>(sensor)];
+  Observation seen{plant.output_map().row(sensor), plant.output_offset()[sensor],
+                   std::max(of.floor(), kNoFloor)};
+  for (const EffectUse& use : plant.model().effects) {
+    const auto* law = dynamic_cast<const effects::SensorLaw*>(use.law.get());
+    if (law != nullptr && use.at == of.name) {  // a straight line: an offset or a scale
+      const effects::Values p = use.numbers();
+      const double at_zero = law->reading(0.0, p.data());
+      const double slope = law->reading(1.0, p.data()) - at_zero;
+      seen.row *= slope;
+      seen.offset = slope * seen.offset + at_zero;
+    }
+  }
+  return seen;
 }
 
 Observation observe_place(const Plant& plant, const std::string& name, double deviation) {

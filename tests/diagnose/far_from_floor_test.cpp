@@ -107,7 +107,7 @@ TEST(ZeroErrors, BeginWhereTheFootHasStood) {
   trial.measured.front().values.array() += 0.025;
   trial.measured.front().offset_uncertainty = 0.03;
   const model::Model model = with_zero_errors(test::hopper(), data);
-  ASSERT_EQ(model.effects.back().label(), "encoder_offset@" + height);
+  ASSERT_EQ(model.effects.back().label(), "encoder_offset at " + height);
   EXPECT_NEAR(model.effects.back().values.front().value, 0.025, 0.002);
   EXPECT_EQ(model.effects.back().values.front().uncertainty, 0.03);
 }

@@ -174,11 +174,11 @@ TEST_F(BadModelTest, Names) {
       {"    resolution: {value: 1, unit: um", "    counts_per_turn: 5\n    resolution: {value: 1, unit: um",
        "", "sensors.qRail.counts_per_turn", "both resolution and", "one of them"},
       {"    resolution: {value: 1, unit: um, source: \"data sheet\"}", "    counts_per_turn: 5", "",
-       "sensors.qRail.counts_per_turn", "counts per turn of a linear place", "resolution"},
+       "sensors.qRail.counts_per_turn", "counts per turn where none are counted", "resolution"},
       {"unit: um", "unit: deg", "", "sensors.qRail.resolution.unit", "unit \"deg\"", "\"m\""},
       {"skeleton: arm.sdf", "skeleton: leg.sdf", "", "skeleton", "\"leg.sdf\", where there is no file",
        "relative to this file"},
-      {"skeleton: arm.sdf", "skeleton: arm.stl", "", "skeleton", "\"arm.stl\"", ".sdf or .urdf"},
+      {"skeleton: arm.sdf", "skeleton: arm.stl", "", "skeleton", "\"arm.stl\"", ".sdf, .urdf or .xml"},
   });
 }
 

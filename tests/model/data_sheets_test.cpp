@@ -138,7 +138,7 @@ TEST_F(DataSheets, AFixedLinkWithoutMassIsAFrame) {
   EXPECT_EQ(model.skeleton.bodies[static_cast<std::size_t>(model.body_index("tool"))].mass, 0.0);
   std::string moving = kArm;
   moving.replace(moving.find("0.5\"/>"), 6, "0\"/>");
-  EXPECT_THAT(test::refusal([&] { read("", "", moving); }), HasSubstr("a mass above zero"));
+  EXPECT_THAT(test::refusal([&] { read("", "", moving); }), HasSubstr("no <inertial> of a link that moves"));
   const std::string sdf = R"(<sdf version="1.9"><model name="m">
 <link name="a"><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>
 <link name="b"><inertial><mass>0</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz></inertia></inertial></link>
@@ -158,14 +158,14 @@ TEST_F(DataSheets, WhatIsRefused) {
       HasSubstr("a torque constant beside a winding"));
   EXPECT_THAT(refusal("ratios:", "effects:\n  - {effect: viscous, at: drive, values: {}}\nratios:"),
               HasSubstr("which has the effect viscous, too"));
-  EXPECT_THAT(refusal("ratios:", "joint_dynamics: took\nratios:"), HasSubstr("take or leave"));
+  EXPECT_THAT(refusal("ratios:", "joint_dynamics: took\nratios:"), HasSubstr("expected take or leave"));
   EXPECT_THAT(refusal("rate: true", "rate: yes"),
               HasSubstr("sensors.gyro.rate: found \"yes\", expected true or false"));
   EXPECT_THAT(refusal("noise: {value: 0.1, unit: deg/s, source: s}, ", ""),
               HasSubstr("neither resolution nor noise above zero"));
   EXPECT_THAT(refusal("unit: deg/s", "unit: deg"), HasSubstr("sensors.gyro.offset"));
   EXPECT_THAT(refusal("rate: true, ", "rate: true, counts_per_turn: 100, "),
-              HasSubstr("counts per turn of a rate"));
+              HasSubstr("where none are counted"));
   EXPECT_THAT(refusal("value: 15, unit: N,", "value: 15, unit: m,"), HasSubstr("sensors.sole.threshold"));
   EXPECT_THAT(refusal("value: 6, unit: ms", "value: -6, unit: ms"), HasSubstr("sensors.sole.closes_late"));
 }

@@ -42,7 +42,7 @@ constexpr const char* kLeg = R"(<mujoco model="leg">
         <geom type="capsule" fromto="0 0 0 0.1 0 -0.4" size="0.03"/>
         <geom type="box" size="0.02 0.03 0.05" pos="0.02 0 -0.1" xyaxes="0 1 0 -1 0.3 0" mass="0.7"/>
         <body name="shin" pos="0.1 0 -0.4" childclass="knee">
-          <joint name="knee" axis="0 1 0" range="0 120"/>
+          <joint name="knee" axis="0 1 0" limited="true" range="0 120"/>
           <geom type="cylinder" size="0.02 0.2" pos="0 0 -0.2" zaxis="0 0.2 1"/>
           <geom type="ellipsoid" size="0.03 0.02 0.04" pos="0 0 -0.35" density="500"/>
           <body name="foot" pos="0 0 -0.4">

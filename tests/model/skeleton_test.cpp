@@ -176,7 +176,7 @@ TEST_F(SkeletonTest, RefusesBadSkeletonsInOneLine) {
       {sdf, "</model>", "", 3, "", "text that is no XML", "a whole"},
       {urdf, "type=\"continuous\"", "type=\"floating\"", 15, "turn", "joint type \"floating\"", "revolute"},
       {urdf, "<axis xyz=\"0 2 0\"/>", "<mimic joint=\"x\"/>", 16, "turn", "a mimic joint", "ratios"},
-      {urdf, "<mass value=\"2\"/>", "<mass value=\"0\"/>", 6, "arm mass", "0 kg", "above zero"},
+      {urdf, "<mass value=\"2\"/>", "<mass value=\"-2\"/>", 6, "arm mass", "-2 kg", "above zero"},
       {urdf, "<mass value=\"2\"/>", "<mass/>", 6, "arm mass", "no value", "a number"},
       {urdf, "iyz=\"0\"", "", 7, "arm iyz", "no value", "a number"},
       {urdf, "<child link=\"load\"/>", "<child link=\"laod\"/>", 18, "weld child", "\"laod\"",

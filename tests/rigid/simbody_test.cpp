@@ -38,6 +38,9 @@ class EveryRobot : public testing::TestWithParam<std::string> {
  protected:
   EveryRobot() : model_(model::read_model(GetParam(), model::known_effects())) {
     model_.effects.clear();  // Simbody is to know masses, gears and gravity only
+    for (model::Motor& motor : model_.motors) {
+      motor.torque_limit.value = 0.0;  // none: random commands are larger
+    }
     plant_ = std::make_unique<model::Plant>(model_, std::vector<model::Lock>{});
     kinematics_ = std::make_unique<model::FootKinematics>(*plant_);
     draw();

@@ -1,8 +1,11 @@
 #include "validation/diagnose/friction_everywhere.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/resample.h"
@@ -14,6 +17,42 @@ namespace {
 bool is_plain_friction(const Candidate& candidate) {
   const std::string& law = candidate.law->declaration().name;
   return law == "viscous" || law == "coulomb";
+}
+
+/// Of the candidates those at as many places as the robot can move independently, motors first: friction at a
+/// joint that moves with motors alone could not be told from theirs.
+std::vector<Candidate> at_independent_places(const model::Model& model, std::vector<Candidate> candidates) {
+  constexpr double kIndependent = 1e-6;
+  model::Plant plant(model, {});
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.place == effects::Place::motor && b.place != effects::Place::motor;
+  });
+  Eigen::MatrixXd directions(plant.positions(), 0);
+  std::vector<std::string> places;
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : candidates) {
+    const bool is_known = std::find(places.begin(), places.end(), candidate.at) != places.end();
+    if (!is_known) {
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+      Eigen::MatrixXd more(plant.positions(), directions.cols() + 1);
+      for (Eigen::Index i = 0; i < more.rows(); ++i) {
+        x[plant.positions() + i] = 1.0;
+        more(i, directions.cols()) = plant.velocity_of(candidate.at, x.data());
+        x[plant.positions() + i] = 0.0;
+      }
+      more.leftCols(directions.cols()) = directions;
+      more.col(directions.cols()).normalize();
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rank(more);
+      rank.setThreshold(kIndependent);
+      if (!more.allFinite() || rank.rank() < more.cols()) {
+        continue;
+      }
+      directions = more;
+      places.push_back(candidate.at);
+    }
+    kept.push_back(candidate);
+  }
+  return kept;
 }
 
 /// The stage with all of them at their null values, not yet fitted.
@@ -75,6 +114,7 @@ std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
   std::vector<Candidate> candidates;
   std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
                is_plain_friction);
+  candidates = at_independent_places(tried.stage.model, std::move(candidates));
   Stage all = fitted(with_all(tried.stage, candidates), data);
   const std::vector<Candidate> kept = told(all, candidates, data);
   if (kept.size() < kLeast) {

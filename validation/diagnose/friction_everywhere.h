@@ -16,10 +16,10 @@ struct Group {
   double share = 0.0;  ///< of the resamples in which it predicts better than the best single effect
 };
 
-/// Viscous and Coulomb friction at all places that move, fitted at once from the stage that `tried` began
-/// from. Those that end at their bound or within two deviations of it are taken out, and the others fitted
-/// anew. Nothing where fewer than two are left, or where the error that counts is not at least a fifth below
-/// that of the best single effect.
+/// Viscous and Coulomb friction at as many places as the robot moves independently, motors first, fitted at
+/// once from the stage that `tried` began from. Those that end at their bound or within two deviations of it
+/// are taken out, and the others fitted anew. Nothing where fewer than two are left, or where the error that
+/// counts is not at least a fifth below that of the best single effect.
 std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
                                          const Progress& progress);
 

@@ -3,12 +3,15 @@
 namespace plumbline::validation {
 namespace {
 
-void add_scores(const Scores& scores, Record& record) { record.add(scores.train).add(scores.held_out); }
+void add_scores(const Scores& scores, Record& record) {
+  record.add(scores.train).add(scores.held_out).add(scores.test);
+}
 
 Scores scores_from(RecordReader& reader) {
   Scores scores;
   scores.train = reader.number();
   scores.held_out = reader.number();
+  scores.test = reader.number();
   return scores;
 }
 
