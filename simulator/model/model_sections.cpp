@@ -209,7 +209,7 @@ double read_resolution(const YamlNode& node, const std::string& unit, bool count
     return gear ? (gear->refuse("a gear without counts_per_turn", "both"), 0.0) : 0.0;
   }
   if (!counts_turns) {
-    counts->refuse(unit == "m" ? "counts per turn of a linear place" : "counts per turn of a rate",
+    counts->refuse("counts per turn where none are counted",
                    "resolution: {value: ..., unit: " + unit + ", source: ...}");
   }
   const double per_turn = counts->number();

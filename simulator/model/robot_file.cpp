@@ -18,7 +18,7 @@ constexpr const char* kFormat = "model/1";
 std::string skeleton_path(const YamlNode& node) {
   const std::string extension = fs::path(node.text()).extension().string();
   if (extension != ".sdf" && extension != ".urdf" && extension != ".xml") {
-    node.refuse("a file name that ends in .sdf or .urdf, or in .xml (MJCF)");
+    node.refuse("a file name that ends in .sdf, .urdf or .xml (MJCF)");
   }
   std::string path = beside(node.file(), node.text());
   std::error_code missing;

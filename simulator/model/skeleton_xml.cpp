@@ -181,21 +181,8 @@ double SkeletonXml::number(const XMLElement& parent, const char* name, const Xml
   return *value;
 }
 
-// A frame: it has no mass, and no joint moves it by itself. What moves without mass is an error of the file,
-// unless nothing of it is stated.
 bool SkeletonXml::is_massless(const XMLElement& inertial, const XmlPart& link) const {
-  if (number(inertial, "mass", link) != 0.0) {
-    return false;
-  }
-  const XMLElement& model = *inertial.Parent()->Parent()->ToElement();
-  for (const XMLElement* joint : children(model, "joint")) {
-    const XMLElement* child = joint->FirstChildElement("child");
-    const char* name = child == nullptr ? nullptr : urdf_ ? child->Attribute("link") : child->GetText();
-    if (name != nullptr && trimmed(name) == link.name) {
-      return attribute(*joint, "type") == "fixed";
-    }
-  }
-  return true;  // the root
+  return number(inertial, "mass", link) == 0.0;
 }
 
 std::string SkeletonXml::text() const {
