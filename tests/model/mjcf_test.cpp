@@ -24,7 +24,7 @@ using testing::HasSubstr;
 /// A hip of two hinges on a slide, a shin of geoms, a foot that is fixed, with classes and all sorts of
 /// poses.
 constexpr const char* kLeg = R"(<mujoco model="leg">
-  <compiler angle="degree" eulerseq="XYZ"/>
+  <compiler angle="degree" eulerseq="XYZ" autolimits="true"/>
   <option gravity="0 0.5 -9.7"/>
   <default>
     <joint damping="0.2"/>

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "simulator/model/from_data_sheets.h"
 #include "simulator/model/kinds.h"
 #include "validation/cli/describe.h"
 #include "validation/cli/files.h"
@@ -134,6 +135,12 @@ void print(const Model& model, const Freedom& freedom) {
     rows.push_back({effects::to_string(place), names});
   }
   print_table({"kind", "names"}, rows);
+  for (const std::string& left : model.skeleton.left_out) {
+    fmt::print("Not taken over from the skeleton: {}\n", left);
+  }
+  for (const std::string& left : model::joint_dynamics_left(model)) {
+    fmt::print("{}\n", left);
+  }
 }
 
 }  // namespace plumbline::cli

@@ -1,8 +1,11 @@
 #include <fmt/core.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "simulator/model/kinds.h"
+#include "simulator/model/plant.h"
+#include "simulator/model/positions_from.h"
 #include "validation/cli/describe.h"
 #include "validation/cli/output.h"
 
@@ -14,6 +17,34 @@ using validation::Trial;
 
 using api::rms;
 using model::reading_unit;
+
+/// Coordinates that the measured positions do not determine.
+std::vector<std::string> unseen_coordinates(const Model& model, const Trial& trial) {
+  const model::Plant plant(model, trial.locks);
+  std::vector<Eigen::RowVectorXd> rows;
+  for (const validation::Measured& channel : trial.measured) {
+    const int sensor = model.sensor_index(channel.sensor);
+    if (model.sensors[static_cast<std::size_t>(sensor)].shows_position()) {
+      rows.emplace_back(model::observe_sensor(plant, sensor).row);
+    }
+  }
+  const auto rank_with = [&](const Eigen::RowVectorXd& last) {
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()) + 1, plant.positions());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      all.row(static_cast<Eigen::Index>(i)) = rows[i];
+    }
+    all.bottomRows(1) = last;
+    return Eigen::FullPivLU<Eigen::MatrixXd>(all).rank();
+  };
+  std::vector<std::string> unseen;
+  const Eigen::Index seen = rank_with(Eigen::RowVectorXd::Zero(plant.positions()));
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    if (rank_with(model::observe_place(plant, coordinate.name, 1.0).row) > seen) {
+      unseen.push_back(coordinate.name);
+    }
+  }
+  return unseen;
+}
 
 }  // namespace
 
@@ -58,6 +89,18 @@ void print(const Trial& trial, const Model& model, const Freedom& freedom) {
   }
   for (const double event : trial.events) {
     fmt::print("Event: {:g} s\n", event);
+  }
+  for (const model::EffectUse& use : trial.configuration) {
+    fmt::print("In this trial alone: {}\n", use.label());
+  }
+  if (trial.stretches.size() > 1) {
+    fmt::print("Used: {} stretches; no window crosses from one to the next.\n", trial.stretches.size());
+  }
+  for (const std::string& remark : trial.remarks) {
+    fmt::print("{}\n", remark);
+  }
+  for (const std::string& name : unseen_coordinates(model, trial)) {
+    fmt::print("No sensor of this trial shows {}: how it moved is known only through the model.\n", name);
   }
 }
 
