@@ -1,6 +1,8 @@
 #include "simulator/model/robot_file.h"
 
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "simulator/model/effect_list.h"
 #include "simulator/model/from_data_sheets.h"
@@ -36,13 +38,23 @@ void read_section(const YamlNode& root, const char* key, void (*read)(const Yaml
   }
 }
 
-Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const SkeletonReader& skeletons) {
+/// That of the outermost file of the chain that names one: an overlay's skeleton replaces its base's.
+Skeleton read_skeleton_of(const std::vector<YamlNode>& chain, const SkeletonReader& skeletons) {
+  for (const YamlNode& document : chain) {
+    if (const auto skeleton = document.find("skeleton")) {
+      return skeletons(skeleton_path(*skeleton));
+    }
+  }
+  return skeletons(skeleton_path(chain.back().at("skeleton")));  // refuses: the base has none
+}
+
+Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
   root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "pulleys",
                    "ratios", "inertias", "sensors", "feet", "effects", "joint_dynamics"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
-  model.skeleton = skeletons(skeleton_path(root.at("skeleton")));
+  model.skeleton = std::move(skeleton);
   read_section(root, "gravity", read_gravity, model);
   read_section(root, "masses", read_masses, model);
   read_section(root, "pulleys", read_pulleys, model);
@@ -69,9 +81,17 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, const
 }  // namespace
 
 void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue, Model& model) {
-  overlay.allow_keys({"plumbline", "base", "note", "effects", "values"});
+  overlay.allow_keys({"plumbline", "base", "note", "skeleton", "sensors", "effects", "values"});
   if (const auto note = overlay.find("note")) {
     note->text();
+  }
+  if (const auto sensors = overlay.find("sensors")) {
+    for (const auto& [name, entry] : sensors->entries()) {
+      if (model.find_sensor(name) != nullptr) {
+        entry.refuse("sensor " + quote(name) + ", which the base has", "the name of a new sensor");
+      }
+    }
+    read_sensors(*sensors, model);
   }
   if (const auto effects = overlay.find("effects")) {
     read_effects(*effects, catalogue, model);
@@ -84,7 +104,7 @@ void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue,
 Model read_model(const std::string& path, const effects::Catalogue& catalogue,
                  const SkeletonReader& skeletons) {
   const std::vector<YamlNode> chain = read_chain(path, kFormat);
-  Model model = read_base(chain.back(), catalogue, skeletons);
+  Model model = read_base(chain.back(), catalogue, read_skeleton_of(chain, skeletons));
   for (auto document = chain.rbegin(); document != chain.rend(); ++document) {
     if (document != chain.rbegin()) {
       apply_overlay(*document, catalogue, model);

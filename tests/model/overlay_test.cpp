@@ -93,6 +93,25 @@ TEST_F(OverlayTest, HoldsASecondEffectOfAKindWhenItSaysSo) {
   EXPECT_EQ(model.effects.back().values[0].value, 0.8);
 }
 
+TEST_F(OverlayTest, ReplacesTheSkeletonAndAddsSensors) {
+  std::string heavier = test::kSkeleton;
+  heavier.replace(heavier.find("<mass>4</mass>"), 14, "<mass>5</mass>");
+  folder_.write("heavier.sdf", heavier);
+  const std::string tip =
+      "  tip_too: {measures: tip, counts_per_turn: 100, gear: 2, noise: {value: 0, unit: rad, assumed: a}, source: s}\n";
+  const std::string path = folder_.write(
+      "o.yaml", "plumbline: model/1\nbase: model.yaml\nskeleton: heavier.sdf\nsensors:\n" + tip);
+  const Model given = read(base_);
+  const Model model = read(path);
+  EXPECT_EQ(given.skeleton.bodies[0].mass, 4.0);
+  EXPECT_EQ(model.skeleton.bodies[0].mass, 5.0);
+  ASSERT_EQ(model.sensors.size(), given.sensors.size() + 1);
+  EXPECT_EQ(model.sensors.back().name, "tip_too");
+  folder_.write("model_2.yaml", "plumbline: model/1\nbase: o.yaml\nsensors:\n" + tip);
+  EXPECT_THAT(test::refusal([&] { read(folder_.path("model_2.yaml")); }),
+              HasSubstr("model_2.yaml:4: sensors.tip_too: found sensor \"tip_too\", which the base has"));
+}
+
 TEST_F(OverlayTest, RefusesBadOverlays) {
   EXPECT_THAT(refusal_of("robot: x\n"), HasSubstr(":3: robot: found an unknown key, expected a known key"));
   EXPECT_THAT(

@@ -72,7 +72,7 @@ constexpr double kRatioAngle = -23.53, kRatioShape = 31.42, kRatioSpring = 5.18;
 
 constexpr double kSpringPulley = 1.8686e-3;  // Table III, J_Bsp
 
-// Table VIII and equation 28; K_vd1 is lost in the table: 1000 is robots/mabel's assumption.
+// Table VIII and equation 28; K_vd1 is 1000 (report of 16 March 2010, Table VI).
 constexpr double kSpringDamping = 1.5, kStopCubic = 100.0, kStopDamping = 1000.0, kStopRoot = 50.0;
 // Only robots/mabel has it: where the root of the stop is rounded off.
 constexpr double kStopRounding = 1e-4;

@@ -1,4 +1,7 @@
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -14,7 +17,8 @@ namespace plumbline::cli {
 namespace {
 
 struct Options {
-  std::string path, model, data_folder, json;
+  std::vector<std::string> paths;
+  std::string model, data_folder, json;
   double density = 0.0;
 };
 
@@ -31,26 +35,38 @@ bool is_trial(const std::string& path) {
   return kind.text() == "trial/1";
 }
 
-void run(const Options& options) {
-  const effects::Catalogue catalogue = model::known_effects();
-  if (!is_trial(options.path)) {
-    const model::Model model = model::read_model(options.path, catalogue);
-    const Freedom freedom = api::freedom_of(model, {});
-    const std::vector<MeshOfBody> meshes = meshes_of(model, options.density);
-    nlohmann::json json = api::to_json(model, freedom);
-    json["meshes"] = to_json(meshes);
-    write_json(json, options.json);
-    print(model, freedom);
-    print(meshes, options.density);
-    return;
-  }
-  const std::string file = options.model.empty() ? validation::model_of_trial(options.path) : options.model;
+nlohmann::json check_model(const std::string& path, const Options& options,
+                           const effects::Catalogue& catalogue) {
+  const model::Model model = model::read_model(path, catalogue);
+  const Freedom freedom = api::freedom_of(model, {});
+  const std::vector<MeshOfBody> meshes = meshes_of(model, options.density);
+  nlohmann::json json = api::to_json(model, freedom);
+  json["meshes"] = to_json(meshes);
+  print(model, freedom);
+  print(meshes, options.density);
+  return json;
+}
+
+nlohmann::json check_trial(const std::string& path, const Options& options,
+                           const effects::Catalogue& catalogue) {
+  const std::string file = options.model.empty() ? validation::model_of_trial(path) : options.model;
   const model::Model model = model::read_model(file, catalogue);
-  const validation::Trial trial = validation::read_trial(options.path, model, {options.data_folder});
+  const validation::Trial trial = validation::read_trial(path, model, {options.data_folder});
   const Freedom freedom = api::freedom_of(model, trial.locks);
   validation::check_command_units(model, trial);
-  write_json(api::to_json(trial, model, freedom), options.json);
   print(trial, model, freedom);
+  return api::to_json(trial, model, freedom);
+}
+
+/// One after the other; the JSON of several is a list.
+void run(const Options& options) {
+  const effects::Catalogue catalogue = model::known_effects();
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& path : options.paths) {
+    all.push_back(is_trial(path) ? check_trial(path, options, catalogue)
+                                 : check_model(path, options, catalogue));
+  }
+  write_json(all.size() == 1 ? all.front() : all, options.json);
 }
 
 }  // namespace
@@ -58,7 +74,7 @@ void run(const Options& options) {
 void add_check(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Read and validate a model or a trial, and say what it is");
-  command->add_option("path", options->path, "model file, trial folder or trial.yaml")
+  command->add_option("path", options->paths, "model files, trial folders or trial.yamls")
       ->required()
       ->type_name("MODEL|TRIAL");
   command->add_option("--model", options->model, "for a trial: model file in place of the one it names")

@@ -8,11 +8,11 @@
 namespace plumbline::validation {
 namespace {
 
-/// By the names of their laws. A law that is in none is a family of its own.
+/// By the names of their laws, friction first. A law that is in none is a family of its own.
 const std::vector<std::vector<std::string>>& families() {
   static const std::vector<std::vector<std::string>> kFamilies{
       {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
-       "hysteresis", "load_friction", "transmitted_load_friction"},
+       "hysteresis", "load_friction", "gear_friction"},
       {"spring", "preload", "unilateral_spring", "hardening", "hard_stop"},
       {"actuator_lag", "command_delay"},
       {"torque_constant_error", "torque_bias"},
@@ -21,10 +21,12 @@ const std::vector<std::vector<std::string>>& families() {
   return kFamilies;
 }
 
-int family_of(const model::EffectUse& use) {
-  const std::string& law = use.law->declaration().name;
+constexpr int kFriction = 0;
+
+int family_of(const effects::Law& law) {
+  const std::string& name = law.declaration().name;
   for (std::size_t f = 0; f < families().size(); ++f) {
-    if (std::find(families()[f].begin(), families()[f].end(), law) != families()[f].end()) {
+    if (std::find(families()[f].begin(), families()[f].end(), name) != families()[f].end()) {
       return static_cast<int>(f);
     }
   }
@@ -33,8 +35,10 @@ int family_of(const model::EffectUse& use) {
 
 }  // namespace
 
+bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
+
 bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other) {
-  return one.at == other.at && family_of(one) >= 0 && family_of(one) == family_of(other);
+  return one.at == other.at && family_of(*one.law) >= 0 && family_of(*one.law) == family_of(*other.law);
 }
 
 }  // namespace plumbline::validation

@@ -9,4 +9,6 @@ namespace plumbline::validation {
 /// to the torque, what a sensor adds, or what the ground is like?
 bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other);
 
+bool is_friction(const effects::Law& law);
+
 }  // namespace plumbline::validation

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "validation/diagnose/family.h"
 #include "validation/diagnose/part.h"
 #include "validation/diagnose/promise.h"
 #include "validation/diagnose/tangents.h"
@@ -98,6 +100,30 @@ void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates,
                starts.end());
 }
 
+/// Bristles at the places where the friction that they contain promises most: where neither viscous nor dry
+/// friction explains anything they do not either, and they cost as much as all laws without states.
+void keep_where_friction_promises(const std::vector<Candidate>& candidates,
+                                  const std::vector<Hypothesis>& tangents, std::vector<Hypothesis>& starts) {
+  constexpr std::size_t kPlaces = 4;
+  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
+    return candidates[static_cast<std::size_t>(one.candidate)];
+  };
+  std::vector<std::string> places;
+  for (const Hypothesis& one : tangents) {  // sorted: the most promising first
+    const Candidate& candidate = candidate_of(one);
+    if (places.size() < kPlaces && is_friction(*candidate.law) &&
+        std::find(places.begin(), places.end(), candidate.at) == places.end()) {
+      places.push_back(candidate.at);
+    }
+  }
+  const auto is_elsewhere = [&](const Hypothesis& one) {
+    const Candidate& candidate = candidate_of(one);
+    return is_friction(*candidate.law) && candidate.law->state_count() > 0 &&
+           std::find(places.begin(), places.end(), candidate.at) == places.end();
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
+}
+
 constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
 
 /// The third of the starts that promises most on a few windows.
@@ -183,8 +209,11 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   }
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
+  sort_by_promise(found);
+  keep_where_friction_promises(candidates, found, starts);
   const Part part = enough_to_tell(stage, data);
-  if (data.has_segments()) {
+  constexpr std::size_t kMany = 60;
+  if (data.has_segments() || starts.size() > kMany) {
     keep_promising(stage, candidates, data, part_of(stage, telling(stage, kFew, part.windows, data), data),
                    progress, starts);
   }
