@@ -1,6 +1,8 @@
 // From a C++ class to the C interface of a controller (controllers/controller.h).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 

@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include "controllers/atrias_running/actuator.h"
+#include "controllers/atrias_running/estimator.h"
 #include "controllers/atrias_running/leg.h"
 #include "controllers/atrias_running/planner.h"
+#include "controllers/atrias_running/swing.h"
 
 namespace plumbline::controllers::atrias {
 namespace {
@@ -148,6 +151,91 @@ TEST(AtriasRunning, TheGroundOnlyPushes) {
   EXPECT_TRUE(contact.update(320.0, -0.7));
   EXPECT_TRUE(contact.update(200.0, -0.1)) << "not before the rebound";
   EXPECT_FALSE(contact.update(200.0, 0.3));
+}
+
+TEST(AtriasRunning, AFootArrivesInTimeAndWithTheGround) {
+  FootPath path;
+  path.plan({-0.13, -0.75}, {0.4, 0.6}, {0.14, -0.98}, -1.0, 0.156, 0.85);
+  EXPECT_NEAR(path.at(0.0).first, -0.13, 1e-12);
+  EXPECT_NEAR(path.at(0.0).second, -0.75, 1e-12);
+  constexpr double h = 1e-6;
+  EXPECT_NEAR((path.at(h).first - path.at(0.0).first) / h, 0.4, 1e-4);
+  EXPECT_NEAR((path.at(h).second - path.at(0.0).second) / h, 0.6, 1e-4);
+  EXPECT_NEAR(path.at(0.156).first, 0.14, 1e-12);
+  EXPECT_NEAR(path.at(0.156).second, -0.98, 1e-12);
+  EXPECT_NEAR((path.at(0.156).first - path.at(0.156 - h).first) / h, -1.0, 1e-6) << "as the ground moves";
+  EXPECT_NEAR(path.at(0.3).first, 0.14, 1e-12) << "a late foot waits";
+  // No jump where the polynomial ends.
+  const double end = 0.85 * 0.156;
+  EXPECT_NEAR(path.at(end + h).first - path.at(end - h).first, -2.0 * h, 1e-8);
+}
+
+TEST(AtriasRunning, TheFilterFindsTheSpeedUnderAForceThatIsWrong) {
+  constexpr double mass = 60.0, period = 1e-3, push = 300.0, shown = 270.0;
+  PointMassFilter filter(period, mass, {});
+  filter.restart(0.0, shown);
+  double x = 0.0, v = 0.0;
+  for (int n = 0; n < 250; ++n) {
+    x += period * v + 0.5 * period * period * push / mass;
+    v += period * push / mass;
+    filter.predict(shown);
+    filter.correct(x, 1.0);
+  }
+  EXPECT_NEAR(filter.position(), x, 2e-3);
+  EXPECT_NEAR(filter.rate(), v, 0.02) << "the force alone would say " << v * shown / push;
+  filter.fly(0.0);
+  const double rate = filter.rate();
+  for (int n = 0; n < 100; ++n) {
+    filter.predict(0.0);
+  }
+  EXPECT_NEAR(filter.rate(), rate, 1e-12) << "nothing pushes in the air";
+  PointMassFilter deaf(period, mass, {});
+  deaf.restart(0.0, 0.0);
+  deaf.predict(0.0);
+  deaf.correct(0.5, 0.0);
+  EXPECT_LT(deaf.position(), 1e-3) << "a foot without load says nothing";
+}
+
+/// A rotor behind a gear and a spring, whose link is held or led.
+class Bench {
+ public:
+  explicit Bench(const DriveNumbers& numbers) : numbers_(numbers), drive_(kStiffness) {}
+  double torque(double asked, double link) {
+    drive_.read(numbers_, motor_, link, kPeriod, 0.5, 0.2);
+    const double current = drive_.current_for_torque(numbers_, asked);
+    constexpr int pieces = 20;
+    for (int n = 0; n < pieces; ++n) {
+      const double spring = kStiffness * (motor_ / numbers_.gear - link) / numbers_.gear;
+      rate_ += kPeriod / pieces * (numbers_.torque_constant * current - spring) / numbers_.rotor_inertia;
+      motor_ += kPeriod / pieces * rate_;
+    }
+    return kStiffness * (motor_ / numbers_.gear - link);
+  }
+  static constexpr double kStiffness = 3600.0, kPeriod = 1e-3;
+
+ private:
+  DriveNumbers numbers_;
+  Drive drive_;
+  double motor_ = 0.0, rate_ = 0.0;
+};
+
+TEST(AtriasRunning, TheSpringsTorqueIsFollowedToTwentyHertz) {
+  DriveNumbers numbers;
+  Bench bench(numbers);
+  for (int n = 0; n < 400; ++n) {
+    bench.torque(200.0, 0.0);
+  }
+  EXPECT_NEAR(bench.torque(200.0, 0.0), 200.0, 2.0);
+  // Wu 2017, section 5.8.1: a closed-loop bandwidth of 20 Hz. A sine of 20 Hz comes through with half its
+  // power or more.
+  Bench sine(numbers);
+  double largest = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const double got = sine.torque(50.0 * std::sin(2.0 * 3.14159265358979323846 * 20.0 * n * 1e-3), 0.0);
+    largest = n > 500 ? std::fmax(largest, std::abs(got)) : largest;
+  }
+  EXPECT_GT(largest, 50.0 / std::sqrt(2.0));
+  EXPECT_LT(largest, 75.0) << "no resonance";
 }
 
 }  // namespace
