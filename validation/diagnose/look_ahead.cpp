@@ -20,8 +20,7 @@ constexpr std::size_t kPairs = 6;        // that are returned
 /// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
 /// would be stiffer than anything that the samples could show, and cost as much as all others together.
 Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 40.0;  // in a sample of kUsual
-  constexpr double kUsual = 1e-3;  // s
+  constexpr double kLeast = 40.0;  // in a sample
   constexpr double kTimesTheStage = 3.0;
   constexpr double kEvaluationsOfStep = 3.0;
   PredictorPool pool(stage.model, data);
@@ -37,11 +36,7 @@ Data without_stiffness(const Stage& stage, const Data& data) {
   });
   const double most = *std::max_element(steps.begin(), steps.end());
   Data limited = data;
-  double longest = kUsual;
-  for (const Trial& trial : data.trials) {
-    longest = std::max(longest, trial.period);
-  }
-  limited.predict.most_steps = std::max(kLeast * longest / kUsual, kTimesTheStage * most);
+  limited.predict.most_steps = std::max(kLeast, kTimesTheStage * most);
   return limited;
 }
 

@@ -8,6 +8,7 @@
 
 #include "validation/diagnose/first_of_each.h"
 #include "validation/diagnose/judged.h"
+#include "validation/diagnose/work.h"
 #include "validation/predict/carried_states.h"
 
 namespace plumbline::validation {
@@ -170,6 +171,31 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
   return chosen;
 }
 
+/// Has it corners, or takes it many times the work of the stage, or of what the samples could show? Then the
+/// search of its many short contacts takes longer than all others together.
+bool is_dear(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage, const Data& data,
+             double work_of_stage) {
+  constexpr double kMany = 15.0;
+  constexpr double kOfSample = 100.0;  // rate evaluations
+  const Extended extended = extend(stage, candidate, hypothesis.start);
+  if (jumps(extended.model.effects.back())) {
+    return true;
+  }
+  const double work = work_of(
+      with_values(extended.model, extended.parameters, promised_theta(extended, hypothesis)), data);
+  return work > kMany * work_of_stage || work > kOfSample;
+}
+
+/// Far above the floor: the dear ones last. Returns how many are not.
+std::size_t dear_last(std::vector<const Hypothesis*>& chosen, const std::vector<Candidate>& candidates,
+                      const Stage& stage, const Data& data) {
+  const double work_of_stage = work_of(fitted_model(stage), data);
+  const auto dear = std::stable_partition(chosen.begin(), chosen.end(), [&](const Hypothesis* one) {
+    return !is_dear(candidates[static_cast<std::size_t>(one->candidate)], *one, stage, data, work_of_stage);
+  });
+  return static_cast<std::size_t>(dear - chosen.begin());
+}
+
 /// Parameters that a refit of the hypothesis would fit beside the stage's.
 int free_count(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage) {
   return static_cast<int>(extend(stage, candidate, hypothesis.start).parameters.size() -
@@ -241,9 +267,14 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   const bool straight = data.has_segments();
   const double kept_promise = straight ? 1.2 : 2.5;
   const int most_refits = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
-  const std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
-  // What a law with corners promises decides whether its many minima are worth a search.
+  std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
+  const bool is_far = !is_below(options.hopeless, stage.estimate, data);
+  const std::size_t cheap = is_far ? dear_last(chosen, candidates, stage, data) : chosen.size();
+  // What a law with corners promises decides whether its many minima are worth a search: one of the first, and
+  // next to the floor or most of the error.
   constexpr std::size_t kThorough = 3;
+  constexpr double kLeft = 0.25;
+  const double worth = std::max(options.far * options.far, kLeft * stage.estimate.predicted.scores.square());
   std::vector<Refit> refits;
   const auto add = [&](const Hypothesis& hypothesis, double done, bool thorough = true) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
@@ -263,18 +294,28 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       finish_leader(stage, refits, candidates, data, progress);
     }
   };
+  constexpr double kMuch = 0.7;  // of the stage's squared error
   for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (i >= cheap && !refits.empty() &&
+        refits.front().square() < kMuch * stage.estimate.predicted.scores.square()) {
+      if (failed != nullptr) {
+        failed->push_back({chosen[i]->candidate,
+                           "it takes many times the work; refitted where nothing else explains much"});
+      }
+      continue;
+    }
     // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
     // best so far may itself be refused, and a promise made by a straight line says little.
     if (refits.size() < 2 || !at_floor(refits, data, options) ||
         chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
-      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), i < kThorough);
+      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()),
+          i < kThorough && chosen[i]->promised() < worth);
     }
   }
   finish(refits, candidates, data, options, progress);
   if (!refits.empty() && !at_floor(refits, data, options)) {
     for (const Hypothesis* other : other_starts(refits, hypotheses)) {
-      add(*other, 0.9);
+      add(*other, 0.9, other->promised() < worth);
     }
     keep_best_of_each(refits);
     finish(refits, candidates, data, options, progress);
