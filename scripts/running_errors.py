@@ -51,8 +51,7 @@ def steps_of(trace, com_up, feet):
         loaded = lambda axis, k: sum(trace[f"F_{foot}_{axis}"][k] for foot in feet)
         steps.append({
             "t": t[end],
-            "wanted": trace["speed_wanted"][end - 2],
-            "since_change": trace["steps_since_change"][end - 2],
+            "wanted": trace["speed_wanted"][(begin + end) // 2],
             "speed": (x[after] - x[end]) / (t[after] - t[end]),
             "foretold": trace["flight_speed"][after],
             "apex": max(z[end:after]),
@@ -88,7 +87,7 @@ def main():
         if options.steps:
             for number, one in enumerate(steps, 1):
                 print(f"{number:4d} {one['t']:7.3f} s  wanted {one['wanted']:5.2f}  speed {one['speed']:6.3f} m/s  "
-                      f"error {one['speed'] - one['wanted']:+.3f}  apex {one['apex']:.3f} m  lean "
+                      f"error  {one['speed'] - one['wanted']:+.3f}  apex {one['apex']:.3f} m  lean "
                       f"{math.degrees(one['lean']):4.1f} deg  flight {1e3 * one['flight']:3.0f} ms")
             continue
         kept = steps[options.settle:] or steps

@@ -112,6 +112,7 @@ constexpr Constant kConstants[] = {
     {number("leverage_right", "1"), [](N n) { return &n.leverage[1]; }},
     {number("friction_cone", "1"), [](N n) { return &n.friction_cone; }},
     {number("contact", "1"), [](N n) { return &n.contact; }},
+    {number("contact_from", "1"), [](N n) { return &n.contact_from; }},
     {number("clearance", "m"), [](N n) { return &n.clearance; }},
     {number("ready", "1"), [](N n) { return &n.ready; }},
     {number("force_noise", "N"), [](N n) { return &n.filter.force_noise; }},

@@ -309,9 +309,12 @@ Currents Running::step(const Reading& reading) noexcept {
     state_.since += period_;
     estimate();
     const bool before = state_.stance;
-    // The force of a leg that is only swung must not be taken for a landing: late in the flight alone.
-    const bool may = before || (up_.rate() < 0.0 && state_.since > 0.5 * flight_time_);
-    const bool stands = may && contact_.update(state_.shown[state_.leg].second, up_.rate());
+    // The force of a leg that has just left its mirror place must not be taken for a landing.
+    const bool may = before || state_.since > numbers_.contact_from * flight_time_;
+    // The rebound is behind the plan's lowest point: a foot that has met high ground while the mass hardly
+    // falls must not be taken for one that has rebounded.
+    const bool rebounds = before && state_.since > 0.5 * planner_.hop().stance_time() && up_.rate() > 0.0;
+    const bool stands = may && contact_.update(state_.shown[state_.leg].second, rebounds ? 1.0 : -1.0);
     if (!before && stands) {
       touch_down();
     } else if (before && !stands) {

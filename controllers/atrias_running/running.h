@@ -39,6 +39,7 @@ struct RunningNumbers {
                                  1.};  ///< of the left and the right leg: what their force weighs at a boom
   double friction_cone = 0.5;          ///< |F_x| <= this F_z
   double contact = 0.5;                ///< weights, force at which a leg stands
+  double contact_from = 0.5;           ///< share of the flight before which no foot lands
   double clearance = 0.2;              ///< m, of a foot in the air
   double ready = 0.85;                 ///< share of the flight after which the foot moves with the ground
   double motor_filter = 1e-3;          ///< s, low-pass of the motors' speed

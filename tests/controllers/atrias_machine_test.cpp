@@ -40,6 +40,17 @@ TEST(AtriasMachine, RunsAtTheSpeedThatIsAskedFor) {
   }
 }
 
+TEST(AtriasMachine, StepsUpAndDownAreRunOver) {
+  for (const double height : {0.15, -0.15}) {
+    run::LoadedScenario loaded = read("running.yaml");
+    loaded.scenario.terrain = contact::Terrain(0.0, {{2.75, 100.0, height}});
+    const GaitRun done = run_steps(loaded, 13);
+    ASSERT_FALSE(done.run.fell) << height << " m: " << done.run.end;
+    EXPECT_NEAR(done.cycles.back().values[0], 1.0, 0.1)
+        << "Wu 2017, section 5.8.4: it comes back to its speed";
+  }
+}
+
 TEST(AtriasMachine, ItsControllerIsWhatKeepsItUp) {
   run::LoadedScenario loaded = read("running.yaml");
   loaded.controller->set("stiffness", 8000.0);  // half the spring, half the force
