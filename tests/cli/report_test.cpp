@@ -95,6 +95,12 @@ TEST_F(Report, ShowsASavedDiagnosis) {
   const json diagnosis = read_json("d.json");
   EXPECT_THAT(outcome.out, HasSubstr(diagnosis["summary"].get<std::string>()));
   EXPECT_EQ(data_of("r.html")["diagnosis"], diagnosis);
+  // One answer, one number: the saved model leaves what the last rung says.
+  succeed({"compare", "trials/steps", "trials/swing", "--model", "found.yaml", "--json", "c.json"});
+  const json compared = read_json("c.json");
+  for (const char* role : {"train", "held_out"}) {
+    EXPECT_NEAR(compared[role].get<double>(), diagnosis["ladder"].back()[role].get<double>(), 1e-3) << role;
+  }
 }
 
 TEST_F(Report, BadInputLeavesNothing) {

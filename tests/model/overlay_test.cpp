@@ -98,7 +98,8 @@ TEST_F(OverlayTest, ReplacesTheSkeletonAndAddsSensors) {
   heavier.replace(heavier.find("<mass>4</mass>"), 14, "<mass>5</mass>");
   folder_.write("heavier.sdf", heavier);
   const std::string tip =
-      "  tip_too: {measures: tip, counts_per_turn: 100, gear: 2, noise: {value: 0, unit: rad, assumed: a}, source: s}\n";
+      "  tip_too: {measures: tip, counts_per_turn: 100, gear: 2, noise: {value: 0, unit: rad, assumed: a}, "
+      "source: s}\n";
   const std::string path = folder_.write(
       "o.yaml", "plumbline: model/1\nbase: model.yaml\nskeleton: heavier.sdf\nsensors:\n" + tip);
   const Model given = read(base_);

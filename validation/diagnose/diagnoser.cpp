@@ -218,8 +218,11 @@ std::vector<std::string> Diagnoser::names_of(const std::vector<Finding>& finding
 }
 
 bool Diagnoser::step(Diagnosis& diagnosis, int round) {
+  // What is named already comes first: where it leaves much, the rest is described rather than searched for.
+  DiagnoseOptions options = options_;
+  options.dear = diagnosis.accepted.empty();
   Tried tried = try_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_,
-                               options_, progress_);
+                               options, progress_);
   const Choice choice = choose(tried.stage, tried.refits, data_, options_);
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));

@@ -181,8 +181,8 @@ bool is_dear(const Candidate& candidate, const Hypothesis& hypothesis, const Sta
   if (jumps(extended.model.effects.back())) {
     return true;
   }
-  const double work = work_of(
-      with_values(extended.model, extended.parameters, promised_theta(extended, hypothesis)), data);
+  const double work =
+      work_of(with_values(extended.model, extended.parameters, promised_theta(extended, hypothesis)), data);
   return work > kMany * work_of_stage || work > kOfSample;
 }
 
@@ -270,8 +270,8 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
   const bool is_far = !is_below(options.hopeless, stage.estimate, data);
   const std::size_t cheap = is_far ? dear_last(chosen, candidates, stage, data) : chosen.size();
-  // What a law with corners promises decides whether its many minima are worth a search: one of the first, and
-  // next to the floor or most of the error.
+  // What a law with corners promises decides whether its many minima are worth a search: one of the first,
+  // and next to the floor or most of the error.
   constexpr std::size_t kThorough = 3;
   constexpr double kLeft = 0.25;
   const double worth = std::max(options.far * options.far, kLeft * stage.estimate.predicted.scores.square());
@@ -296,8 +296,9 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   };
   constexpr double kMuch = 0.7;  // of the stage's squared error
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (i >= cheap && !refits.empty() &&
-        refits.front().square() < kMuch * stage.estimate.predicted.scores.square()) {
+    const bool is_explained =
+        !refits.empty() && refits.front().square() < kMuch * stage.estimate.predicted.scores.square();
+    if (i >= cheap && (!options.dear || is_explained)) {
       if (failed != nullptr) {
         failed->push_back({chosen[i]->candidate,
                            "it takes many times the work; refitted where nothing else explains much"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/predict/box_least_squares.h"
 #include "validation/predict/cluster_scatter.h"
@@ -46,6 +47,25 @@ double mean_square(const Data& data, const std::vector<int>& windows, const std:
   return sse / std::max(1.0, count);
 }
 
+/// Variances of the parameters where the model is far off: what the windows say counts by as much less as
+/// they contradict each other more than their floors, f = tr(H C) / n with their normal equations H and the
+/// scatter's covariance C; what is known of the parameters keeps its weight. Without it a parameter that the
+/// windows hardly tell would seem to be open far beyond what is stated of it, because each of them pulls at
+/// it with all that the model lacks.
+Eigen::VectorXd tempered_variances(const std::vector<Reduced>& reduced, const Eigen::VectorXd& known,
+                                   const Scatter& scatter) {
+  const Eigen::Index n = known.size();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  for (const Reduced& one : reduced) {
+    H += one.H;
+  }
+  const double f =
+      std::max(1.0, (H * scatter.covariance).trace() / static_cast<double>(std::max<Eigen::Index>(n, 1)));
+  H /= f;
+  H.diagonal() += known;
+  return H.ldlt().solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+}
+
 }  // namespace
 
 Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
@@ -58,11 +78,16 @@ Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
       prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
   const Scatter scatter = cluster_scatter(reduced, known, constant_readings(data, windows, reduced, n));
   const double white = mean_square(data, windows, reduced);
+  constexpr double kFar = 9.0;  // mean square, from which more is missing than noise
+  const Eigen::VectorXd most = white > kFar
+                                   ? tempered_variances(reduced, known, scatter)
+                                   : Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   Precision precision{Eigen::VectorXd(n), Eigen::VectorXd(n), {}, scatter.freedom, {}, scatter.inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     const double least = white * scatter.inverse(p, p);
-    const double search = std::sqrt(std::max(scatter.covariance(p, p), least)) * units[p];
+    const double variance = std::min(std::max(scatter.covariance(p, p), least), most[p]);
+    const double search = std::sqrt(variance) * units[p];
     precision.deviations[p] = std::abs(search_slope(parameter.scale, estimate.theta[p])) * search;
     precision.below[p] = search;
   }
