@@ -75,6 +75,23 @@ TEST(LegPlacement, TheLargestTurnInSteadyRunningIsThatOfTheThesis) {
   EXPECT_GT(above->deflection, below->deflection);
 }
 
+TEST(LegPlacement, ATableOfTurnsFallsShortWhereItsLastEntryIs) {
+  const DeadbeatLaw law(scanned(), 1.1);
+  const double step = 10.0 * degree, time = std::sqrt(2.0 * (1.1 - std::sin(46.0 * degree)) / 9.81);
+  const PolicyTable table(law, step);
+  // At an entry it is the law itself; to the other side it is the mirror image.
+  const Placement there = table.at(time, -20.0 * degree), law_there = TimeLaw(law, -20.0 * degree).at(time);
+  EXPECT_NEAR(there.leg.attack, law_there.leg.attack, 1e-9);
+  EXPECT_NEAR(there.leg.splay, law_there.leg.splay, 1e-9);
+  EXPECT_NEAR(table.at(time, 20.0 * degree).leg.splay, -there.leg.splay, 1e-12);
+  // Beyond the limit the leg is that of an entry within it, and the turn that was wanted is the limit's.
+  const Placement sharp = table.at(time, 120.0 * degree), limit = TimeLaw(law, 120.0 * degree).at(time);
+  EXPECT_NEAR(sharp.deflection, limit.deflection, 1e-9);
+  const double entry = step * std::floor(limit.deflection / step);
+  EXPECT_NEAR(sharp.leg.attack, table.at(time, entry).leg.attack, 1e-9);
+  EXPECT_GT(sharp.leg.attack, limit.leg.attack);
+}
+
 TEST(LegPlacement, RoughGroundOfTwentyFiveCentimetresIsRunOver) {
   const DeadbeatLaw law(scanned(), 1.1);
   TrailSettings settings;

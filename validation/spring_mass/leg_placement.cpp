@@ -124,6 +124,39 @@ Placement TimeLaw::at(double time) const {
           between(a.deflection, b.deflection)};
 }
 
+PolicyTable::PolicyTable(const DeadbeatLaw& law, double step) : step_(step) {
+  for (int n = 0; n * step < pi + step; ++n) {
+    laws_.emplace_back(law, std::min(n * step, pi));
+  }
+}
+
+bool PolicyTable::reaches(std::size_t entry, const Placement& placement) const {
+  constexpr double rounding = 1e-6;
+  return std::abs(std::abs(placement.deflection) - static_cast<double>(entry) * step_) < rounding;
+}
+
+Placement PolicyTable::at(double time, double wanted) const {
+  const double size = std::min(std::abs(wanted), pi), side = wanted < 0.0 ? -1.0 : 1.0;
+  auto entry = std::min(static_cast<std::size_t>(size / step_), laws_.size() - 2);
+  Placement below = laws_[entry].at(time);
+  const Placement above = laws_[entry + 1].at(time);
+  Placement placed{{}, size};
+  if (reaches(entry + 1, above)) {
+    const double share = size / step_ - static_cast<double>(entry);
+    placed.leg.attack = below.leg.attack + share * (above.leg.attack - below.leg.attack);
+    placed.leg.splay = below.leg.splay + share * (above.leg.splay - below.leg.splay);
+  } else {
+    placed.deflection = std::min(size, std::abs(above.deflection));
+    while (entry > 0 && !reaches(entry, below)) {
+      below = laws_[--entry].at(time);
+    }
+    placed.leg = below.leg;
+  }
+  placed.leg.splay *= side;
+  placed.deflection *= side;
+  return placed;
+}
+
 LegAngles classical_placement(const Body& body, const Eigen::Vector2d& velocity, double neutral, double gain,
                               const Eigen::Vector2d& wanted) {
   const Eigen::Vector2d foot = neutral * velocity.normalized() + gain * (velocity - wanted);

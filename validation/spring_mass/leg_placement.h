@@ -58,6 +58,23 @@ class TimeLaw {
   std::vector<Placement> placements_;
 };
 
+/// Time laws for deflections from 0 to pi in equal steps, as section 3.2.2 keeps its policy: wanted
+/// deflections between two entries are interpolated, and the last entry that can be reached stands for all
+/// beyond it.
+class PolicyTable {
+ public:
+  /// `step` in rad.
+  PolicyTable(const DeadbeatLaw& law, double step);
+  /// At this time after the apex. The placement's deflection is the wanted one, clipped where the model's own
+  /// limit is: what the table falls short of it is an error.
+  Placement at(double time, double wanted) const;
+
+ private:
+  bool reaches(std::size_t entry, const Placement& placement) const;
+  double step_;
+  std::vector<TimeLaw> laws_;
+};
+
 /// The classical law of equation 3.11: foot at `neutral` along the velocity plus gain*(v - v_wanted) before
 /// the mass, in the horizontal plane. `neutral` is the neutral point's distance in m, `gain` has the unit s.
 LegAngles classical_placement(const Body& body, const Eigen::Vector2d& velocity, double neutral, double gain,

@@ -119,6 +119,7 @@ std::vector<SensitivityResult> sensitivity(const DeadbeatLaw& law, int trails, i
       SensitivityResult& result = results[static_cast<std::size_t>(job / laws)];
       TrailSettings own = settings;
       own.law = static_cast<LawKind>(job % laws);
+      own.policy_step = law.behaviour().grid().splay_step;  // the thesis does not state its table's
       own.disturbance = result.row.disturbance;
       if (own.law != LawKind::classical || result.row.with_classical) {
         result.cells[static_cast<std::size_t>(job % laws)] = run_cells(law, own, trails);

@@ -84,6 +84,9 @@ class Runner {
       last_stance_ = steady.stance;
       last_way_ = steady.takeoff.position.x() - steady.touchdown.position.x();
     }
+    if (settings.law != LawKind::classical && settings.policy_step > 0.0) {
+      table_.emplace(law, settings.policy_step);
+    }
     apex_ = settings.first_apex;
   }
 
@@ -99,8 +102,11 @@ class Runner {
   /// What the law wants of this flight: leg angles over the time since the apex.
   Placement placement(double time) const {
     Placement placed;
-    if (time_law_) {
-      placed = time_law_->at(std::max(0.0, time - settings_.disturbance.delay));
+    const double late = std::max(0.0, time - settings_.disturbance.delay);
+    if (table_) {
+      placed = table_->at(late, wanted_);
+    } else if (time_law_) {
+      placed = time_law_->at(late);
     } else {
       placed = fixed_;
     }
@@ -110,6 +116,10 @@ class Runner {
   }
 
   void plan(double wanted, double speed) {
+    wanted_ = wanted;
+    if (table_) {
+      return;
+    }
     if (settings_.law != LawKind::classical) {
       time_law_.emplace(law_, wanted);
       return;
@@ -256,7 +266,9 @@ class Runner {
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();
   double apex_ = 1.0, heading_ = 0.0, ground_below_ = 0.0;
   double gain_ = 0.0, last_stance_ = 0.0, last_way_ = 0.0;
+  std::optional<PolicyTable> table_;
   std::optional<TimeLaw> time_law_;
+  double wanted_ = 0.0;  // deflection of this step
   Placement fixed_;
 };
 

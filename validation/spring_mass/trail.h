@@ -50,6 +50,9 @@ struct TrailSettings {
   /// Otherwise it is half of the way that the mass ran in the stance before, which is the same with the mean
   /// speed of that stance.
   bool neutral_from_flight = false;
+  /// rad between two entries of the deadbeat policy's table over wanted deflections; 0: each is looked up in
+  /// the scan itself.
+  double policy_step = 0.0;
   std::uint64_t seed = 1;
   Disturbance disturbance;
 };
