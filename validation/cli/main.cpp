@@ -5,6 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/driving_commands.h"
 #include "validation/cli/interrupt.h"
 
 namespace {
@@ -70,6 +71,10 @@ int main(int argc, char** argv) {
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);
     plumbline::cli::add_spring_mass(app, outcome);
+    plumbline::cli::add_certify(app, outcome);
+    plumbline::cli::add_verify(app, outcome);
+    plumbline::cli::add_key(app, outcome);
+    plumbline::cli::add_robot(app, outcome);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -273,16 +273,25 @@ Eigen::VectorXd steps_of(const Eigen::MatrixXd& points, Eigen::Index positions, 
 }
 
 /// A position of the model, named itself or by a quantity that is a multiple (or a sine) of it.
-std::string position_named(const YamlNode& node, const run::LoadedScenario& loaded, double& times) {
-  times = 1.0;
+run::Quantity position_named(const YamlNode& node, const run::LoadedScenario& loaded) {
   for (const run::Quantity& quantity : loaded.scenario.quantities) {
     if (quantity.name == node.text()) {
-      times = quantity.times;
-      return quantity.of;
+      return quantity;
     }
   }
-  model::position_unit_of(loaded.model, node.text(), node);
-  return node.text();
+  run::Quantity itself;
+  itself.name = itself.of = node.text();
+  itself.unit = model::position_unit_of(loaded.model, node.text(), node);
+  return itself;
+}
+
+/// The level of a quantity or of its rate, as one of the position behind it.
+double level_of(const YamlNode& node, const run::Quantity& quantity, bool rate) {
+  const double level = model::read_number(node, rate ? quantity.unit + "/s" : quantity.unit);
+  if (quantity.sine && level != 0.0) {
+    node.refuse("0: " + quantity.name + " is a sine of its position");
+  }
+  return level / quantity.times;
 }
 
 void check_memory(const YamlNode& node, const run::LoadedScenario& loaded) {
@@ -311,21 +320,21 @@ std::optional<Section> read_section(const run::LoadedScenario& loaded) {
   Section section;
   section.rate = node->has("rate_of");
   const YamlNode of = node->at(section.rate ? "rate_of" : "position_of");
-  double times = 1.0;
-  section.position = position_named(of, loaded, times);
+  const run::Quantity looked_at = position_named(of, loaded);
+  section.position = looked_at.of;
   section.falling = node->has("falls_through");
   const YamlNode level = node->at(section.falling ? "falls_through" : "rises_through");
-  const std::string unit = model::position_unit_of(loaded.model, section.position, of);
-  section.level = model::read_number(level, section.rate ? unit + "/s" : unit);
+  section.level = level_of(level, looked_at, section.rate);
   if (const auto flight = node->find("in_flight")) {
     section.in_flight = flight->text() == "true";
   }
-  section.travel = position_named(node->at("travel"), loaded, times);
+  const run::Quantity travel = position_named(node->at("travel"), loaded);
+  section.travel = travel.of;
   if (const auto memory = node->find("travel_memory")) {
     const YamlNode name = memory->at("name");
     check_memory(name, loaded);
     section.travel_memory = name.text();
-    section.per_memory = model::read_positive(*memory, memory->at("unit").text(), {"name"}) / times;
+    section.per_memory = model::read_positive(*memory, memory->at("unit").text(), {"name"}) / travel.times;
   }
   if (const auto memory = node->find("memory")) {
     for (const YamlNode& name : memory->items()) {
