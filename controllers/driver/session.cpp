@@ -122,6 +122,10 @@ void Session::arm() noexcept {
     say("not armed: only an idle driver arms");
     return;
   }
+  if (ask_reset_) {
+    say("not armed: the robot has not taken the reset yet");
+    return;
+  }
   if (tripped_) {
     say("not armed: the robot's watchdog has cut the power; reset first");
     return;
@@ -270,7 +274,8 @@ void Session::cycle(std::uint32_t missing, std::int64_t arrival) noexcept {
     if (state() == State::waiting) enter(State::idle, "the robot answers");
   }
   watch_flags();
-  supervisor_.sensors(channels_.data(), missing + 1, state() == State::running);
+  // Until the robot has taken a reset it may lie anywhere, and then is elsewhere at once.
+  if (!ask_reset_) supervisor_.sensors(channels_.data(), missing + 1, state() == State::running);
   controller_ns_ = 0;
   make_commands();
   supervisor_.command(commands_.data());

@@ -14,6 +14,7 @@
 #include <random>
 #include <sstream>
 
+#include "controllers/driver/log.h"
 #include "tests/driver/processes.h"
 #include "tests/driver/rehearsal.h"
 
@@ -49,8 +50,9 @@ const std::vector<Row>& rows() {
       {"controller gives up", "", "", 4, "", 0, {"controller gave up"}},
       {"controller slow", "", "", 8, "", 0, {"late cycle"}},
       {"controller hangs", "", "", 5, "", 0, {"controller overrun"}},
-      {"controller aborts", "", "", 6, "", 0, {"controller crash"}},
-      {"controller exits", "", "", 7, "", 0, {"controller crash"}},
+      // A process that takes longer to end than its answer may take has overrun.
+      {"controller aborts", "", "", 6, "", 0, {"controller crash", "controller overrun"}},
+      {"controller exits", "", "", 7, "", 0, {"controller crash", "controller overrun"}},
       {"sensor drifts slowly", "drift", ":thigh_left:3000", 0, "", 0, {"workspace", "stopping position"}},
       {"sensor drifts quickly", "drift", ":thigh_left:30000", 0, "", 0, {"stopping position", "workspace"}},
       {"sensor jumps", "jump", ":knee_right:500", 0, "", 0, {"count jump"}},
@@ -69,7 +71,8 @@ const std::vector<Row>& rows() {
   return all;
 }
 
-/// What the driver's log says about its stop.
+/// What the driver's log says about its stop while the controller ran. Before that it may have seen the robot
+/// of the run before lying about, and have stopped for it.
 struct Stop {
   std::string cause = "none";
   double sequence = -1;  ///< of the first cycle that was stopped
@@ -80,9 +83,11 @@ Stop read_stop(const std::string& log) {
   Stop stop;
   std::ifstream events(log + "/events.txt");
   std::string line;
+  bool ran = false;
   while (std::getline(events, line)) {
+    ran = ran || line.find("running: ") != std::string::npos;
     const std::size_t at = line.find("stopped: ");
-    if (at != std::string::npos && stop.cause == "none") {
+    if (ran && at != std::string::npos && stop.cause == "none") {
       stop.cause = line.substr(at + 9, line.find(':', at + 9) - at - 9);
     }
   }
@@ -93,12 +98,15 @@ Stop read_stop(const std::string& log) {
   for (std::size_t k = 0; std::getline(head, line, ','); ++k) {
     if (line.rfind("u_", 0) == 0) commands.push_back(k);
   }
+  ran = false;
   while (std::getline(cycles, line)) {
     std::vector<double> values;
     std::stringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');)
       values.push_back(std::strtod(cell.c_str(), nullptr));
-    if (values.size() < 3 || values[2] == 0.0) continue;
+    if (values.size() < 3) continue;
+    ran = ran || values[1] == static_cast<double>(State::running);
+    if (!ran || values[2] == 0.0) continue;
     if (stop.sequence < 0) stop.sequence = values[0];
     for (const std::size_t k : commands) stop.zero = stop.zero && k < values.size() && values[k] == 0.0;
   }
@@ -129,7 +137,8 @@ class Matrix {
                                                          : std::vector<std::string>{"--udp", udp}) {
       words.push_back(word);
     }
-    words.emplace_back(real_time ? "--hard" : "--fast");
+    words.emplace_back("--hard");  // a robot that is not given the processor is a fault of its own
+    if (!real_time) words.emplace_back("--fast");
     for (const double instant : instants) {
       if (!row.robot.empty()) {
         words.emplace_back("--fault");

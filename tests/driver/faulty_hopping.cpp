@@ -65,7 +65,7 @@ int step(void* data, const double* inputs, double* outputs, double* log) {
       outputs[1] = 1e4;
       break;
     case too_quick:
-      outputs[1] = outputs[1] > 0.0 ? -29.9 : 29.9;
+      outputs[0] = outputs[0] > 0.0 ? -29.9 : 29.9;  // mLA_left; the leg shape swings through it by itself
       break;
     case gives_up:
       return 1;

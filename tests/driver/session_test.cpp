@@ -318,6 +318,37 @@ TEST_F(SessionTest, AfterTheWatchdogOnlyAResetArms) {
   EXPECT_EQ(session_->state(), State::holding);
 }
 
+// A robot that has fallen is outside its workspace, and jumps when it is put back: neither is a fault while
+// nothing is under power and the robot has not taken the reset. It is not armed before that.
+TEST_F(SessionTest, AFallenRobotIsPutBackByAReset) {
+  begin();
+  run_to(State::running);
+  Packet fallen = packet();
+  fallen.set_whole(0, 100000);
+  sample(fallen);
+  ASSERT_EQ(session_->state(), State::stopped);
+  session_->ask(Request::reset);
+  const std::uint32_t before = wire_.sent_.back().sequence;
+  for (int k = 0; k < 3; ++k) {
+    fallen = packet();
+    fallen.set_whole(0, 100000);
+    fallen.echo = before;
+    EXPECT_NE(sample(fallen).flags & driver_flag::reset, 0U);
+  }
+  EXPECT_EQ(session_->state(), State::idle);
+  session_->ask(Request::arm);
+  fallen = packet();
+  fallen.set_whole(0, 100000);
+  fallen.echo = before;
+  sample(fallen);
+  EXPECT_EQ(session_->state(), State::idle);
+  EXPECT_EQ(sample().flags & driver_flag::reset, 0U);  // back, and it has heard
+  sample();
+  EXPECT_FALSE(session_->supervisor().stopped());
+  request(Request::arm);
+  EXPECT_EQ(session_->state(), State::holding);
+}
+
 TEST_F(SessionTest, AControllerWithOtherPortsIsRefused) {
   Plan plan = small_plan();
   plan.inputs[1].port = "tilted";
