@@ -28,6 +28,7 @@ RobotOptions options_of(bool real_time) {
   RobotOptions options;
   options.integrator = run::SampledOptions().integrator;
   options.real_time = real_time;
+  options.patience = 10.0;
   return options;
 }
 
@@ -67,9 +68,9 @@ TEST_P(Driven, MovesAsInOnePiece) {
   Served robot(rehearsal, address, options_of(false));
   driver::Process drive({DRIVE_PROGRAM, rehearsal.whole(), "--key", rehearsal.key(), "--robot", address,
                          "--log", folder.path("log"), "--allow-soft-timing", "--for", "1.5", "--do",
-                         "wait 0.1; arm; wait 0.2; go; wait 30; quit"},
+                         "wait 1; arm; wait 0.8; go; wait 60; quit"},
                         folder.path("drive.txt"));
-  EXPECT_EQ(drive.wait(), 0);
+  ASSERT_EQ(drive.wait(), 0) << folder.read("drive.txt");
   const RobotReport& report = robot.end();
   ASSERT_EQ(report.runs.size(), 1U);
   EXPECT_GE(report.runs[0].landings, 2);
@@ -159,7 +160,7 @@ TEST(Robot, ItsWatchdogCutsThePower) {
   ASSERT_EQ(report.runs.size(), 1U);
   EXPECT_TRUE(report.runs[0].watchdog);
   EXPECT_GE(report.runs[0].watchdog_after, 0.1);
-  EXPECT_LT(report.runs[0].watchdog_after, 0.3);  // what a loaded computer may add
+  EXPECT_LT(report.runs[0].watchdog_after, 1.0);  // what a loaded computer may add
 }
 
 TEST(WireFault, IsReadAndRefused) {

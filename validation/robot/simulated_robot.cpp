@@ -13,8 +13,7 @@ namespace {
 using driver::Packet;
 
 constexpr std::int64_t kSecond = 1000000000;
-constexpr std::int64_t kPatience = 20000000;  // ns for a command where the robot waits for it
-constexpr double kShortestFlight = 0.02;      // s; a foot that bounces is not in flight
+constexpr double kShortestFlight = 0.02;  // s; a foot that bounces is not in flight
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(std::llround(1e9 * seconds)); }
 
@@ -248,7 +247,8 @@ void SimulatedRobot::wait_for_command(driver::Transport& transport, bool sent, s
   }
   const std::int64_t trip = unanswered_ + nanoseconds(options_.watchdog);
   // Without real time a packet that was kept back has no answer to wait for.
-  std::int64_t deadline = options_.real_time ? std::max(next, begun + 1000) : begun + (sent ? kPatience : 0);
+  std::int64_t deadline =
+      options_.real_time ? std::max(next, begun + 1000) : begun + (sent ? nanoseconds(options_.patience) : 0);
   if (options_.real_time && power_) {
     deadline = std::min(deadline, std::max(trip, begun + 1000));
   }

@@ -25,6 +25,7 @@ struct RobotOptions {
   /// until then the command before holds. MABEL's computer let a watchdog timer cut the power when an update
   /// took longer than its period of 1 ms (Park et al., section Embedded computer).
   double watchdog = 1e-3;
+  double patience = 0.02;         ///< s that it waits for a command where it does not run in real time
   bool real_time = true;          ///< false: the next sample follows as soon as the command is there
   double longest = 0.0;           ///< s after which it ends; 0: none
   bool once = false;              ///< end when a driver that had been there is silent for 2 s
