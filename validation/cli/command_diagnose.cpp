@@ -74,7 +74,6 @@ void print_verdict(const Diagnosis& diagnosis) {
     fmt::print("Nothing was finished.\n");
     return;
   }
-  const validation::Rung& first = diagnosis.ladder.front();
   const validation::Rung& last = diagnosis.ladder.back();
   if (diagnosis.interrupted && diagnosis.accepted.empty()) {
     fmt::print("No effect had been accepted yet; the held-out error so far is {:.2f} times the floor.\n",
@@ -98,13 +97,6 @@ void print_verdict(const Diagnosis& diagnosis) {
   for (const std::string& remark : validation::remarks(diagnosis)) {
     fmt::print("{}\n", remark);
   }
-  if (diagnosis.accepted.empty() || last.foretold() <= 0.0) {
-    return;
-  }
-  fmt::print(
-      "In all, the held-out error fell from {:.2f} to {:.2f} times the floor; {:.1f} % of the squared error "
-      "above the floor stays unexplained.\n",
-      first.foretold(), last.foretold(), 100.0 * diagnosis.unexplained_share);
 }
 
 void print_rows(const std::vector<RankRow>& ranking, std::size_t most) {
