@@ -36,15 +36,14 @@ Forces forces(const AslipModel& p, const SlipEmbedding& c, const Vector& s) {
   const double l_rate = (hip_x * hip_x_rate + hip_y * hip_y_rate) / l;
   const double phi_rate = -(hip_x_rate * std::cos(lean) + hip_y_rate * std::sin(lean)) / l - pitch_rate;
 
-  // Equations 39, 40, 55 to 57, 60: the zero dynamics' coordinates.
-  const double z3 = l_rate + L * std::cos(phi) * pitch_rate;
-  const double z4 =
-      phi_rate -
-      (-1.0 + L * std::sin(phi) / l + p.inertia / (p.mass * l * (L * std::sin(phi) - l))) * pitch_rate;
+  // Equations 55 to 57, 60 with l, phi and their rates for z1 to z4, and the actual pitch. On the zero
+  // dynamics this is the same as equations 39, 40 say; off it the paper's own curves (Figure 6) show that
+  // this was meant.
   const double r = std::sqrt(L * L + l * l - 2.0 * L * l * std::sin(phi));
-  const double r_rate = (l - L * std::sin(phi)) / r * z3 - L * l * std::cos(phi) / r * z4;
-  const double height = l * std::cos(phi + c.pitch) + L * std::sin(c.pitch);
-  const double energy = 0.5 * p.mass * (z3 * z3 + l * l * z4 * z4) + p.mass * p.gravity * height +
+  const double r_rate = (l - L * std::sin(phi)) / r * l_rate - L * l * std::cos(phi) / r * phi_rate;
+  const double height = l * std::cos(phi + pitch) + L * std::sin(pitch);
+  const double energy = 0.5 * p.mass * (l_rate * l_rate + l * l * phi_rate * phi_rate) +
+                        p.mass * p.gravity * height +
                         0.5 * c.stiffness * std::pow(c.radius + c.pretension - r, 2);
 
   Forces f;
@@ -178,6 +177,9 @@ AslipRun run_aslip(const AslipModel& model, const SlipEmbedding& control, const 
   double time = 0.0, toe = 0.0;
   for (int stride = 0; stride < strides; ++stride) {
     if (stride == push.liftoff) {
+      // The hip stays where it is.
+      state.x += model.hip_to_com * (std::cos(state.pitch + push.pitch) - std::cos(state.pitch));
+      state.y += model.hip_to_com * (std::sin(state.pitch + push.pitch) - std::sin(state.pitch));
       state.pitch += push.pitch;
       state.x_rate += push.x_rate;
     }

@@ -56,7 +56,7 @@ struct AslipRun {
   bool fell = false;                         ///< no touchdown, or no lift-off within a second
 };
 
-/// What is changed at one lift-off.
+/// What is changed at one lift-off: the pitch about the hip.
 struct AslipPush {
   int liftoff = -1;  ///< counted from 0; -1: never
   double pitch = 0.0, x_rate = 0.0;
