@@ -9,6 +9,8 @@
 namespace plumbline::run {
 namespace {
 
+constexpr double kStands = 1e-6;  // m: a foot that is put onto the ground may be so deep in it by rounding
+
 /// Keeps what is asked for, and says when it is over.
 class Account {
  public:
@@ -86,7 +88,7 @@ Eigen::VectorXd state_at_start(const model::Model& model, const Scenario& scenar
   model::Plant there(model, {}, scenario.terrain);
   const std::vector<model::Touch> touches = there.touches(state.data());
   for (std::size_t f = 0; f < touches.size(); ++f) {
-    if (touches[f].depth > 0.0) {
+    if (touches[f].depth > kStands) {
       throw InputError({scenario.file, 0, "terrain"},
                        "the " + model.feet[f].name + " foot " + std::to_string(touches[f].depth) +
                            " m inside the terrain at the start",

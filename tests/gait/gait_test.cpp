@@ -53,6 +53,27 @@ TEST(CycleFinder, StepsEndAtEachTouchdownAndStridesAtTheFirstFoots) {
   EXPECT_EQ(ends_of(Gait::Cycle::stride, left, right, 1200), (std::vector<int>{0, 500, 1000}));
 }
 
+TEST(CycleFinder, KnowsWhichFootBeganACycle) {
+  Gait gait;
+  gait.cycle = Gait::Cycle::step;
+  gait.feet = {0, 1};
+  CycleFinder finder(gait, 2);
+  EXPECT_EQ(finder.foot(), -1);
+  std::vector<model::Touch> touches(2);
+  const auto down = [&](double left, double right) {
+    touches[0].depth = left;
+    touches[1].depth = right;
+  };
+  down(-1e-3, 1e-3);
+  EXPECT_TRUE(finder.look(0.0, touches));
+  EXPECT_EQ(finder.foot(), 1);
+  down(-1e-3, -1e-3);
+  EXPECT_FALSE(finder.look(0.3, touches));
+  down(1e-3, -1e-3);
+  EXPECT_TRUE(finder.look(0.4, touches));
+  EXPECT_EQ(finder.foot(), 0);
+}
+
 // MABEL's hops by contact are those of the controller's own phases: each landing is where phase II begins.
 TEST(GaitRun, HopsByContactAreThoseOfTheControllersPhases) {
   const run::LoadedScenario loaded = hopping(mabel("mabel_planar.yaml"));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "simulator/trace/error.h"
 #include "tests/gait/mabel_hops.h"
 
 namespace plumbline::validation {
@@ -47,6 +48,44 @@ TEST(Measure, AreWhatTheirNamesSay) {
   EXPECT_DOUBLE_EQ(value(limit), 0.5);
   EXPECT_DOUBLE_EQ(value(measure(Kind::share_down, {"contact_left"})), 1.0 / 1.5);
   EXPECT_EQ(unit_of(measure(Kind::rate), channels, {}), "m/s");
+  EXPECT_DOUBLE_EQ(value(measure(Kind::rms)), std::sqrt(2.5));
+  // Only what is above zero counts: 9, 0 and 3.
+  EXPECT_DOUBLE_EQ(value(measure(Kind::positive_work, {"u_mLA_left"})), 3.75);
+  Measure cost = measure(Kind::cost_of_transport, {"u_mLA_left", "travel"});
+  cost.weight = 2.0;
+  EXPECT_DOUBLE_EQ(value(cost), 3.75 / (2.0 * 2.0));
+}
+
+TEST(Measure, WorkIsOfPowers) {
+  const run::LoadedScenario loaded = hopping(mabel("mabel_planar.yaml"));
+  const Channels channels(loaded, {"power_mLA_left", "u_mLA_left", "travel"}, {});
+  using Kind = Measure::Kind;
+  EXPECT_EQ(unit_of(measure(Kind::positive_work, {"power_mLA_left"}), channels, {}), "J");
+  EXPECT_EQ(unit_of(measure(Kind::cost_of_transport, {"power_mLA_left", "travel"}), channels, {}), "1");
+  EXPECT_THROW(unit_of(measure(Kind::positive_work, {"u_mLA_left"}), channels, {}), InputError);
+  EXPECT_THROW(unit_of(measure(Kind::cost_of_transport, {"power_mLA_left", "u_mLA_left"}), channels, {}),
+               InputError);
+}
+
+// Cycles of unlike length: a mean is taken over those that last so long.
+TEST(Cycles, MeanCurvesEndWithTheirCycles) {
+  const double none = std::nan("");
+  std::vector<GaitRun> runs(1);
+  runs[0].cycles.resize(3);
+  const std::vector<Eigen::Vector3d> curves{{1.0, 2.0, none}, {3.0, 6.0, none}, {100.0, 100.0, none}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    runs[0].cycles[c].foot = c < 2 ? 1 : 0;
+    runs[0].cycles[c].curves = {curves[c]};
+  }
+  Gait gait;
+  gait.settle = 0;
+  EXPECT_EQ(settled_cycles(gait, runs, -1).size(), 3U);
+  const MeanCurve mean = mean_curve(settled_cycles(gait, runs, 1), 0);
+  EXPECT_DOUBLE_EQ(mean.mean[0], 2.0);
+  EXPECT_DOUBLE_EQ(mean.mean[1], 4.0);
+  EXPECT_DOUBLE_EQ(mean.deviation[0], std::sqrt(2.0));
+  EXPECT_EQ(mean.count[2], 0);
+  EXPECT_TRUE(std::isnan(mean.mean[2]));
 }
 
 TEST(Measure, SpreadIsMeanAndStandardDeviation) {

@@ -71,6 +71,8 @@ TEST(PublishedFile, BadOnesAreRefused) {
   EXPECT_THAT(refusal(one(std::string(kGood) + "\n        at_most: {value: 1, unit: deg, source: x}")),
               HasSubstr("2 of value"));
   EXPECT_THAT(refusal(one(std::string(kGood) + "\n        colour: red")), HasSubstr("colour"));
+  EXPECT_THAT(refusal(one(std::string(kGood) + "\n        begins_with: lefft")),
+              HasSubstr("did you mean left"));
   EXPECT_THAT(refusal("plumbline: published/1\ntitle: x\ngaits: {}\n"), HasSubstr("published/2"));
   EXPECT_THAT(refusal(kHead), HasSubstr("at least one"));
 }
@@ -90,6 +92,36 @@ TEST(PublishedFile, HoldsCurvesToo) {
   EXPECT_THROW(read_published(folder.path("published.yaml")), InputError);
 }
 
+// A cycle of a record over time: rows between its events, a sum of columns, aligned by the event that begins
+// it.
+TEST(PublishedFile, CutsACycleOutOfARecord) {
+  const test::TemporaryFolder folder;
+  folder.write("log.csv",
+               "t [s],motor [deg],joint [deg],sd [deg]\n1,10,1,1\n1.1,20,2,1\n1.2,30,4,2\n1.3,40,8,2\n");
+  const auto curve = [](const std::string& column, const std::string& to) {
+    return kHead +
+           "    curves:\n      - name: stretch\n        channel: q_torso\n        begins_with: right\n" +
+           "        file: log.csv\n        column: " + column +
+           "\n        spread: sd\n        cycle: {from: {value: 1.1, unit: s}, to: {value: " + to +
+           ", unit: s}}\n        source: here\n        tolerance: {value: 1, unit: deg, assumed: x}\n";
+  };
+  const PublishedRobot robot =
+      read_published(folder.write("published.yaml", curve("{motor: 1, joint: -2}", "1.2")));
+  const PublishedCurve& one = robot.gaits[0].curves.at(0);
+  ASSERT_EQ(one.at.size(), 2);
+  EXPECT_FALSE(one.over_shares);
+  EXPECT_EQ(one.foot, 1);
+  EXPECT_NEAR(one.at[0], 0.0, 1e-12);
+  EXPECT_NEAR(one.at[1], 0.1, 1e-12);
+  EXPECT_NEAR(one.value[0], 16.0 * kDegree, 1e-12);
+  EXPECT_NEAR(one.value[1], 22.0 * kDegree, 1e-12);
+  EXPECT_NEAR(one.spread[1], 2.0 * kDegree, 1e-12);
+  folder.write("published.yaml", curve("motr", "1.2"));
+  EXPECT_THROW(read_published(folder.path("published.yaml")), InputError);
+  folder.write("published.yaml", curve("motor", "1.1"));
+  EXPECT_THROW(read_published(folder.path("published.yaml")), InputError);
+}
+
 TEST(PublishedFile, TheShippedOneIsWhole) {
   const PublishedRobot robot =
       read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
@@ -101,7 +133,8 @@ TEST(PublishedFile, TheShippedOneIsWhole) {
     EXPECT_FALSE(published.quantity.assumed);
     names.insert(published.name);
   }
-  EXPECT_EQ(names.size(), 11U);
+  EXPECT_EQ(names.size(), 13U);
+  EXPECT_EQ(robot.gaits[0].curves.size(), 11U);
 }
 
 PublishedQuantity made(PublishedQuantity::Relation relation, double value, double tolerance) {

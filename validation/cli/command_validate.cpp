@@ -26,6 +26,7 @@ struct Options {
   validation::ValidateOptions run;
   double tolerance = 1e-5;
   bool no_orbit = false, no_held = false;
+  std::vector<std::string> models;
 };
 
 std::string published_file(const std::string& robot) {
@@ -81,9 +82,9 @@ void print(const GaitValidation& done, long enough) {
   fmt::print("{}: {}\n\n", done.gait, done.title);
   std::vector<std::vector<std::string>> rows;
   for (const Verdict& verdict : done.verdicts) {
-    rows.push_back({verdict.name, published_text(verdict), simulated_text(verdict),
-                    number(verdict, verdict.tolerance) + unit_of(verdict), verdict_text(verdict),
-                    verdict.remark});
+    rows.push_back({verdict.name, !verdict.curve.channel.empty() ? "curve" : published_text(verdict),
+                    simulated_text(verdict), number(verdict, verdict.tolerance) + unit_of(verdict),
+                    verdict_text(verdict), verdict.remark});
   }
   print_table({"quantity", "published", "simulated", "tolerance", "verdict", ""}, rows);
   fmt::print("\nWithout a published counterpart:\n\n");
@@ -99,6 +100,23 @@ void print(const GaitValidation& done, long enough) {
                done.not_measured(), done.verdicts.size());
   }
   fmt::print("\n");
+}
+
+nlohmann::json numbers_of(const Eigen::VectorXd& values, double divide_by) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const double value : values) {
+    json.push_back(json_number(value / divide_by));
+  }
+  return json;
+}
+
+nlohmann::json to_json(const Verdict::Curve& curve, double si) {
+  return {{"channel", curve.channel},
+          {curve.over_shares ? "share" : "t", numbers_of(curve.at, 1.0)},
+          {"published", numbers_of(curve.published, si)},
+          {"spread", numbers_of(curve.spread, si)},
+          {"simulated", numbers_of(curve.simulated, si)},
+          {"deviation", numbers_of(curve.deviation, si)}};
 }
 
 nlohmann::json to_json(const Verdict& verdict) {
@@ -117,6 +135,9 @@ nlohmann::json to_json(const Verdict& verdict) {
                          {"deviation", verdict.simulated->deviation / si},
                          {"count", verdict.simulated->count}};
     json["within"] = verdict.holds();
+    if (!verdict.curve.channel.empty()) {
+      json["curve"] = to_json(verdict.curve, si);
+    }
     json["outside_by"] = verdict.outside / si;
   }
   return json;
@@ -150,14 +171,103 @@ nlohmann::json to_json(const GaitValidation& done) {
   return json;
 }
 
+/// How far a verdict is off, in tolerances; nothing where it was not measured or has no tolerance.
+std::optional<double> in_tolerances(const Verdict& verdict) {
+  if (!verdict.simulated || !(verdict.tolerance > 0.0)) {
+    return std::nullopt;
+  }
+  const bool curve = !verdict.curve.channel.empty();
+  const double off = verdict.simulated->mean - (curve ? 0.0 : verdict.published);
+  if ((verdict.relation == Relation::at_least && off > 0.0) ||
+      (verdict.relation == Relation::at_most && !curve && off < 0.0)) {
+    return 0.0;
+  }
+  return std::abs(off) / verdict.tolerance;
+}
+
+/// One gait on several models: a column for each, what is outside its tolerance marked.
+void print_models(const std::vector<std::string>& models, const std::vector<GaitValidation>& done) {
+  fmt::print("{}: {}\n\n", done.front().gait, done.front().title);
+  std::vector<std::string> head{"quantity", "published"};
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& model : models) {
+    head.push_back(fs::path(model).stem().string());
+  }
+  for (std::size_t v = 0; v < done.front().verdicts.size(); ++v) {
+    const Verdict& first = done.front().verdicts[v];
+    rows.push_back(
+        {first.name, !first.curve.channel.empty() ? "curve, " + first.unit : published_text(first)});
+    for (const GaitValidation& one : done) {
+      const Verdict& verdict = one.verdicts[v];
+      const bool outside = verdict.simulated && verdict.outside != 0.0;
+      rows.back().push_back(
+          !verdict.simulated ? "-" : number(verdict, verdict.simulated->mean) + (outside ? " *" : ""));
+    }
+  }
+  rows.push_back({"root mean square, in tolerances", ""});
+  rows.push_back({"steps or hops before the end", ""});
+  for (const GaitValidation& one : done) {
+    double sum = 0.0;
+    int count = 0;
+    for (const Verdict& verdict : one.verdicts) {
+      if (const auto off = in_tolerances(verdict)) {
+        sum += *off * *off;
+        ++count;
+      }
+    }
+    rows[rows.size() - 2].push_back(count > 0 ? fmt::format("{:.2f}", std::sqrt(sum / count)) : "-");
+    rows.back().push_back(fmt::format("{}{}", one.run.cycles.size(), one.run.run.fell ? ", then ends" : ""));
+  }
+  print_table(head, rows);
+  fmt::print("\n* outside its tolerance. A curve: root mean square difference.\n\n");
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (done[m].run.run.fell) {
+      fmt::print("{}: {}\n", fs::path(models[m]).stem().string(), done[m].run.run.end);
+    }
+  }
+}
+
+/// The gaits on each of the models, in the order in which they are stated.
+void run_models(Options& options, Outcome& outcome) {
+  if (!options.published.files.model.empty()) {
+    throw InputError({"", 0, "--model"}, "it and --models", "one of them");
+  }
+  std::vector<std::vector<GaitValidation>> done;  // by gait, then by model
+  nlohmann::json json = nlohmann::json::array();
+  bool holds = true;
+  for (const std::string& model : options.models) {
+    options.published.files.model = model;
+    const validation::PublishedRobot robot =
+        validation::read_published(published_file(options.robot), options.published);
+    done.resize(robot.gaits.size());
+    for (std::size_t g = 0; g < robot.gaits.size(); ++g) {
+      ProgressLine line;
+      done[g].push_back(validation::validate(robot.gaits[g], options.run, line.callback()));
+      nlohmann::json one = to_json(done[g].back());
+      one["model"] = model;
+      json.push_back(one);
+      holds = holds && done[g].back().holds();
+    }
+  }
+  for (const std::vector<GaitValidation>& gait : done) {
+    print_models(options.models, gait);
+  }
+  write_json({{"models", json}, {"holds", holds}}, options.json);
+  outcome.status = holds ? 0 : 1;
+}
+
 void run(Options options, Outcome& outcome) {
   check_writable(options.json);
-  const validation::PublishedRobot robot =
-      validation::read_published(published_file(options.robot), options.published);
   options.run.run.integrator.set_tolerance(options.tolerance);
   options.run.stop = &stop_flag();
   options.run.orbit = !options.no_orbit;
   options.run.held = !options.no_held;
+  if (!options.models.empty()) {
+    run_models(options, outcome);
+    return;
+  }
+  const validation::PublishedRobot robot =
+      validation::read_published(published_file(options.robot), options.published);
   nlohmann::json json{{"robot", robot.title}, {"gaits", nlohmann::json::array()}};
   bool holds = true;
   for (const validation::PublishedGait& gait : robot.gaits) {
@@ -213,6 +323,11 @@ void add_validate(CLI::App& app, Outcome& outcome) {
       ->type_name("FILE");
   command->add_option("--model", options->published.files.model, "another model than the scenario names")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--models", options->models,
+          "these models in place of the scenario's, one after the other: a table with a column for each")
+      ->type_name("FILE...");
   command->add_option("--controller", options->published.files.controller, "another controller's file")
       ->type_name("FILE");
   add_numbers(*command, *options);

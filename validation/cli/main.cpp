@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "simulator/trace/error.h"
+#include "validation/cli/command_walking.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/driving_commands.h"
 #include "validation/cli/interrupt.h"
@@ -75,6 +76,8 @@ int main(int argc, char** argv) {
     plumbline::cli::add_verify(app, outcome);
     plumbline::cli::add_key(app, outcome);
     plumbline::cli::add_robot(app, outcome);
+    plumbline::cli::add_gait(app, outcome);
+    plumbline::cli::add_step_down(app);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -100,6 +100,7 @@ bool CycleFinder::look(double t, const std::vector<model::Touch>& touches) {
       const bool touchdown = t - up_since_[i] >= gait_.shortest;
       any_touchdown = any_touchdown || touchdown;
       first_touchdown = first_touchdown || (touchdown && i == 0);
+      foot_ = touchdown ? static_cast<int>(i) : foot_;
       since_[i] = t;
     }
     if (!down && down_[f]) {

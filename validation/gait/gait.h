@@ -41,11 +41,14 @@ class CycleFinder {
   bool look(double t, const std::vector<model::Touch>& touches);
   /// When each foot of the gait came down last, s.
   const std::vector<double>& touchdowns() const { return since_; }
+  /// Which foot (index in Gait::feet) touched down last: the one that ended a cycle, and begins the next.
+  int foot() const { return foot_; }
 
  private:
   Gait gait_;
   std::vector<bool> down_;
   std::vector<double> since_, up_since_;
+  int foot_ = -1;
   double flight_since_ = 0.0;  // all feet up since then
   bool in_flight_ = true;
   bool flown_ = true;  // long enough, since the last landing

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -38,6 +40,7 @@ class CycleRecorder {
         finish();
       }
       begun_ = true;
+      foot_ = finder_.foot();
       time_.clear();
       rows_.clear();
       keep(t);
@@ -46,7 +49,10 @@ class CycleRecorder {
 
  private:
   static std::vector<std::string> names_of(const GaitView& view) {
-    std::vector<std::string> names = view.curves;
+    std::vector<std::string> names;
+    for (const CurveView& curve : view.curves) {
+      names.push_back(curve.channel);
+    }
     for (const Measure& measure : view.measures) {
       if (measure.of() == Measure::Of::cycle) {
         names.insert(names.end(), measure.channels.begin(), measure.channels.end());
@@ -70,15 +76,18 @@ class CycleRecorder {
     Cycle cycle;
     cycle.begin = time_.front();
     cycle.end = time_.back();
+    cycle.foot = foot_;
     for (const Measure& measure : view_.measures) {
       cycle.values.push_back(measure.of() == Measure::Of::cycle ? value_of(measure, channels_, samples_of)
                                                                 : 0.0);
     }
-    for (const std::string& name : view_.curves) {
-      Eigen::VectorXd curve(view_.shares.size());
+    for (const CurveView& view : view_.curves) {
+      Eigen::VectorXd curve(view.at.size());
+      const double unit = view.over_shares ? cycle.end - cycle.begin : 1.0;
       for (Eigen::Index k = 0; k < curve.size(); ++k) {
-        const double t = cycle.begin + view_.shares[k] * (cycle.end - cycle.begin);
-        curve[k] = at_time(time, rows.col(channels_.index(name)), t);
+        const double t = cycle.begin + view.at[k] * unit;
+        curve[k] = t <= cycle.end + 1e-9 ? at_time(time, rows.col(channels_.index(view.channel)), t)
+                                         : std::numeric_limits<double>::quiet_NaN();
       }
       cycle.curves.push_back(std::move(curve));
     }
@@ -90,6 +99,7 @@ class CycleRecorder {
   CycleFinder finder_;
   std::vector<Cycle>& cycles_;
   bool begun_ = false;
+  int foot_ = -1;
   std::vector<double> row_, time_, rows_;
 };
 
@@ -137,16 +147,40 @@ std::vector<run::LoadedScenario> from_starts(const run::LoadedScenario& loaded, 
   return all;
 }
 
-std::vector<const Cycle*> settled_cycles(const Gait& gait, const std::vector<GaitRun>& runs) {
+std::vector<const Cycle*> settled_cycles(const Gait& gait, const std::vector<GaitRun>& runs, int foot) {
   std::vector<const Cycle*> settled;
   for (const GaitRun& one : runs) {
     const auto all = static_cast<long>(one.cycles.size());
     const long end = all - (one.run.fell ? std::min(gait.before_fall, all) : 0);
     for (long c = gait.settle; c < end; ++c) {
-      settled.push_back(&one.cycles[static_cast<std::size_t>(c)]);
+      const Cycle& cycle = one.cycles[static_cast<std::size_t>(c)];
+      if (foot < 0 || cycle.foot == foot) {
+        settled.push_back(&cycle);
+      }
     }
   }
   return settled;
+}
+
+MeanCurve mean_curve(const std::vector<const Cycle*>& cycles, std::size_t curve) {
+  MeanCurve result;
+  const Eigen::Index points = cycles.empty() ? 0 : cycles.front()->curves[curve].size();
+  result.mean.resize(points);
+  result.deviation.resize(points);
+  result.count.resize(points);
+  for (Eigen::Index k = 0; k < points; ++k) {
+    std::vector<double> values;
+    for (const Cycle* cycle : cycles) {
+      if (std::isfinite(cycle->curves[curve][k])) {
+        values.push_back(cycle->curves[curve][k]);
+      }
+    }
+    const Spread spread = spread_of(values);
+    result.mean[k] = values.empty() ? std::numeric_limits<double>::quiet_NaN() : spread.mean;
+    result.deviation[k] = spread.deviation;
+    result.count[k] = static_cast<int>(values.size());
+  }
+  return result;
 }
 
 Share share_of(const std::string& what, const std::vector<GaitRun>& runs, long enough) {

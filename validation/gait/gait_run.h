@@ -15,8 +15,9 @@ namespace plumbline::validation {
 /// One cycle and what was measured on it.
 struct Cycle {
   double begin = 0.0, end = 0.0;        ///< s
+  int foot = -1;                        ///< whose touchdown began it, index in Gait::feet
   std::vector<double> values;           ///< one for each measure, SI; 0 for those that are not of a cycle
-  std::vector<Eigen::VectorXd> curves;  ///< one for each sampled channel, at shares of the cycle
+  std::vector<Eigen::VectorXd> curves;  ///< one for each CurveView, at its points; NaN behind the cycle's end
 };
 
 struct GaitRun {
@@ -24,12 +25,18 @@ struct GaitRun {
   std::vector<Cycle> cycles;
 };
 
-/// What is looked at. `curves` are channels that are kept as curves over the cycle, at `shares` (0 to 1).
+/// A channel that is kept as a curve over the cycle.
+struct CurveView {
+  std::string channel;
+  Eigen::VectorXd at;        ///< s since the cycle's beginning, or shares of it (0 to 1)
+  bool over_shares = false;  ///< `at` are shares
+};
+
+/// What is looked at.
 struct GaitView {
   Gait gait;
   std::vector<Measure> measures;
-  std::vector<std::string> curves;
-  Eigen::VectorXd shares;
+  std::vector<CurveView> curves;
   Place_in_file where;  ///< of the measures, for messages
 };
 
@@ -51,8 +58,17 @@ std::vector<GaitRun> run_gaits(const std::vector<run::LoadedScenario>& all, cons
 std::vector<run::LoadedScenario> from_starts(const run::LoadedScenario& loaded, int count,
                                              std::uint64_t seed);
 
-/// Cycles behind the transient and before a fall (Gait::settle, before_fall).
-std::vector<const Cycle*> settled_cycles(const Gait& gait, const std::vector<GaitRun>& runs);
+/// Cycles behind the transient and before a fall (Gait::settle, before_fall). `foot`: only those that this
+/// foot's touchdown began (index in Gait::feet); -1: all.
+std::vector<const Cycle*> settled_cycles(const Gait& gait, const std::vector<GaitRun>& runs, int foot = -1);
+
+/// Mean and standard deviation over cycles of one of their curves, point by point, and how many cycles last
+/// so long. NaN where none does.
+struct MeanCurve {
+  Eigen::VectorXd mean, deviation;
+  Eigen::VectorXi count;
+};
+MeanCurve mean_curve(const std::vector<const Cycle*>& cycles, std::size_t curve);
 
 /// How many runs went on long enough.
 struct Share {

@@ -22,14 +22,17 @@ struct Word {
   bool channels;  // takes one or more
   bool several;
 };
-constexpr std::array<Word, 15> kWords{{{"duration", Kind::duration, false, false},
+constexpr std::array<Word, 18> kWords{{{"duration", Kind::duration, false, false},
                                        {"change", Kind::change, true, false},
                                        {"at_end", Kind::at_end, true, false},
                                        {"mean", Kind::mean, true, false},
                                        {"largest", Kind::largest, true, true},
                                        {"swing", Kind::swing, true, false},
                                        {"rate", Kind::rate, true, false},
+                                       {"rms", Kind::rms, true, false},
                                        {"integral", Kind::integral, true, true},
+                                       {"positive_work", Kind::positive_work, true, true},
+                                       {"cost_of_transport", Kind::cost_of_transport, true, true},
                                        {"time_at_limit", Kind::time_at_limit, true, true},
                                        {"touchdown_gap", Kind::touchdown_gap, false, false},
                                        {"share_down", Kind::share_down, true, false},
@@ -37,6 +40,20 @@ constexpr std::array<Word, 15> kWords{{{"duration", Kind::duration, false, false
                                        {"growth", Kind::growth, false, false},
                                        {"growth_held", Kind::growth_held, false, false},
                                        {"joint_of_stretch", Kind::joint_of_stretch, true, false}}};
+
+/// Powers, and for a cost of transport a travel behind them.
+std::string unit_of_work(const Measure& measure, const Channels& channels, const Place_in_file& where) {
+  const bool cost = measure.kind == Kind::cost_of_transport;
+  for (std::size_t c = 0; c < measure.channels.size(); ++c) {
+    const char* expected = cost && c + 1 == measure.channels.size() ? "m" : "W";
+    const std::string& found = channels.unit(static_cast<std::size_t>(channels.index(measure.channels[c])));
+    if (!units_agree(found, expected)) {
+      throw InputError(where, "\"" + measure.channels[c] + "\" in " + found,
+                       std::string("a channel in ") + expected);
+    }
+  }
+  return cost ? "1" : "J";
+}
 
 const Word& word_of(const YamlNode& node, const std::string& text) {
   std::vector<std::string> known;
@@ -69,6 +86,16 @@ double mean_of(const Eigen::VectorXd& time, const Eigen::VectorXd& values, bool 
     sum += 0.5 * (time[k] - time[k - 1]) * (values[k] + values[k - 1]);
   }
   return over_time ? sum : sum / (time[time.size() - 1] - time[0]);
+}
+
+/// Source: Sreenath et al. (2011), equations 40 and 41: only what motors put in counts.
+double positive_work(const Measure& measure, const Channels& channels, const CycleSamples& cycle) {
+  const std::size_t powers = measure.channels.size() - (measure.kind == Kind::cost_of_transport ? 1 : 0);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(cycle.time.size());
+  for (std::size_t c = 0; c < powers; ++c) {
+    sum += cycle.rows.col(channels.index(measure.channels[c])).cwiseMax(0.0);
+  }
+  return mean_of(cycle.time, sum, true);
 }
 
 double at_limit(const CycleSamples& cycle, const Eigen::VectorXd& values, double limit) {
@@ -118,7 +145,13 @@ Measure read_measure(const YamlNode& node) {
   measure.channels = read_channels(entries.front().second, word.several);
   measure.text = std::string(word.word) + " of " + measure.channels.front() +
                  (measure.channels.size() > 1 ? ", ..." : "");
-  node.allow_keys({word.word, "limit"});
+  node.allow_keys({word.word, "limit", "travel", "weight"});
+  if (measure.kind == Kind::cost_of_transport) {
+    measure.channels.push_back(node.at("travel").text());
+    measure.weight = model::read_positive(node.at("weight"), "N");
+  } else if (node.has("travel") || node.has("weight")) {
+    node.at(node.has("travel") ? "travel" : "weight").refuse("neither travel nor weight here");
+  }
   if (measure.kind == Kind::time_at_limit) {
     const YamlNode limit = node.at("limit");
     measure.limit = model::read_positive(limit, limit.at("unit").text());
@@ -143,6 +176,9 @@ std::string unit_of(const Measure& measure, const Channels& channels, const Plac
     case Kind::growth_held:
     case Kind::joint_of_stretch:
       return "1";
+    case Kind::positive_work:
+    case Kind::cost_of_transport:
+      return unit_of_work(measure, channels, where);
     default:
       break;
   }
@@ -176,6 +212,14 @@ double value_of(const Measure& measure, const Channels& channels, const CycleSam
     case Kind::share_down:
     case Kind::mean:
       return mean_of(time, column(0), false);
+    case Kind::rms:
+      return std::sqrt(mean_of(time, column(0).cwiseAbs2(), false));
+    case Kind::positive_work:
+      return positive_work(measure, channels, cycle);
+    case Kind::cost_of_transport: {
+      const Eigen::VectorXd travel = column(measure.channels.size() - 1);
+      return positive_work(measure, channels, cycle) / (measure.weight * std::abs(travel[last] - travel[0]));
+    }
     case Kind::swing:
       return column(0).maxCoeff() - column(0).minCoeff();
     case Kind::touchdown_gap: {

@@ -24,21 +24,24 @@ struct CycleSamples {
 /// ({change: travel}, {largest: [u_left, u_right]}).
 struct Measure {
   enum class Kind {
-    duration,          ///< s
-    change,            ///< last less first
-    at_end,            ///< at the sample that ends the cycle: the touchdown
-    mean,              ///< over the cycle, by time
-    largest,           ///< magnitude, of all channels
-    swing,             ///< highest less lowest
-    rate,              ///< change over duration
-    integral,          ///< over time
-    time_at_limit,     ///< that a channel's magnitude is at the limit or beyond, summed over the channels, s
-    touchdown_gap,     ///< between the first and the last foot's touchdown at the cycle's end, s
-    share_down,        ///< share of the cycle that a foot is in the ground (duty factor)
-    cycles,            ///< of a run: how many there were
-    growth,            ///< of the orbit: largest multiplier of the return map
-    growth_held,       ///< the same with what the controller updates from cycle to cycle held
-    joint_of_stretch,  ///< of the model: angle of the joint for an angle of a ratio's stretch
+    duration,           ///< s
+    change,             ///< last less first
+    at_end,             ///< at the sample that ends the cycle: the touchdown
+    mean,               ///< over the cycle, by time
+    largest,            ///< magnitude, of all channels
+    swing,              ///< highest less lowest
+    rate,               ///< change over duration
+    rms,                ///< root mean square over the cycle, by time
+    integral,           ///< over time
+    positive_work,      ///< integral of the sum of what is above zero, of powers: J
+    cost_of_transport,  ///< positive_work over weight and |change of travel|: 1
+    time_at_limit,      ///< that a channel's magnitude is at the limit or beyond, summed over the channels, s
+    touchdown_gap,      ///< between the first and the last foot's touchdown at the cycle's end, s
+    share_down,         ///< share of the cycle that a foot is in the ground (duty factor)
+    cycles,             ///< of a run: how many there were
+    growth,             ///< of the orbit: largest multiplier of the return map
+    growth_held,        ///< the same with what the controller updates from cycle to cycle held
+    joint_of_stretch,   ///< of the model: angle of the joint for an angle of a ratio's stretch
   };
   /// What a measure is taken of.
   enum class Of { cycle, run, orbit, model };
@@ -46,6 +49,7 @@ struct Measure {
   Kind kind = Kind::duration;
   std::vector<std::string> channels;  ///< of a joint_of_stretch: the ratio
   double limit = 0.0;                 ///< of time_at_limit, SI
+  double weight = 0.0;                ///< of cost_of_transport, N; its travel is the last of the channels
   std::string text;                   ///< as written, for people
   Of of() const;
 };

@@ -22,6 +22,7 @@ struct PublishedQuantity {
   Relation relation = Relation::value;
   model::Quantity quantity;   ///< SI; its unit is the file's
   model::Quantity tolerance;  ///< SI, >= 0; beyond a limit by less than this still holds
+  int foot = -1;              ///< only cycles that this foot's touchdown began, index in Gait::feet; -1: all
   bool over_starts = false;   ///< of a run: over the random starts, not from the scenario's own
   std::string controller;     ///< file of other constants that this one is measured with; empty: the gait's
 
@@ -33,16 +34,19 @@ struct PublishedQuantity {
 
 std::string to_string(PublishedQuantity::Relation relation);
 
-/// A published curve over a cycle: read off a figure, or given as data.
+/// A published curve over a cycle: read off a figure, or given as data. Aligned by the event that begins a
+/// cycle: the touchdown.
 struct PublishedCurve {
   std::string name;
   std::string channel;
-  std::string unit;  ///< as the file of the curve has it
-  std::string
-      file;  ///< CSV with the columns `share [1]` (of the cycle, from its beginning) and `value [unit]`
-  Eigen::VectorXd share, value;  ///< SI
-  std::string source;            ///< paper, figure, page
-  model::Quantity tolerance;     ///< of the root mean square difference, SI
+  std::string unit;           ///< as the file of the curve has it
+  std::string file;           ///< CSV
+  int foot = -1;              ///< as of PublishedQuantity
+  bool over_shares = false;   ///< `at` are shares of the cycle; otherwise s since its beginning
+  Eigen::VectorXd at, value;  ///< value: SI
+  Eigen::VectorXd spread;     ///< standard deviation over the measured cycles, SI; empty: not published
+  std::string source;         ///< paper, figure, page
+  model::Quantity tolerance;  ///< of the root mean square difference, SI
 };
 
 /// One gait of a robot.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "simulator/trace/units.h"
 #include "validation/gait/drawn_models.h"
 
 namespace plumbline::validation {
@@ -31,6 +32,9 @@ class Validator {
     }
     Measure duration;
     view_.measures.push_back(duration);
+    for (const PublishedCurve& curve : published.curves) {
+      view_.curves.push_back({curve.channel, curve.at, curve.over_shares});
+    }
     done_.gait = published.name;
     done_.title = published.loaded.scenario.title;
   }
@@ -49,8 +53,8 @@ class Validator {
     for (std::size_t q = 0; q < published_.quantities.size(); ++q) {
       done_.verdicts.push_back(judge(q));
     }
-    for (const PublishedCurve& curve : published_.curves) {
-      done_.verdicts.push_back(judge(curve));
+    for (std::size_t c = 0; c < published_.curves.size(); ++c) {
+      done_.verdicts.push_back(judge(published_.curves[c], c));
     }
     return std::move(done_);
   }
@@ -167,7 +171,8 @@ class Validator {
   }
 
   void of_cycles(std::size_t q, Verdict& verdict) const {
-    const auto cycles = settled_cycles(view_.gait, runs_of(published_.quantities[q]));
+    const auto cycles =
+        settled_cycles(view_.gait, runs_of(published_.quantities[q]), published_.quantities[q].foot);
     if (cycles.empty()) {
       verdict.remark = "no settled " + to_string(view_.gait.cycle);
       return;
@@ -210,7 +215,8 @@ class Validator {
     }
   }
 
-  Verdict judge(const PublishedCurve& curve) const {
+  /// Root mean square difference of the mean simulated curve, over what at least half of the cycles reach.
+  Verdict judge(const PublishedCurve& curve, std::size_t c) const {
     Verdict verdict;
     verdict.name = curve.name;
     verdict.measure = "rms difference of the mean curve of " + curve.channel;
@@ -218,23 +224,38 @@ class Validator {
     verdict.unit = curve.tolerance.unit;
     verdict.relation = PublishedQuantity::Relation::at_most;
     verdict.tolerance = curve.tolerance.value;
-    GaitView view = view_;
-    view.measures.clear();
-    view.curves = {curve.channel};
-    view.shares = curve.share;
-    const Runs runs{run_gait(published_.loaded, view, gait_options(options_.enough))};
-    const auto cycles = settled_cycles(view.gait, runs);
+    verdict.curve.channel = curve.channel;
+    const auto cycles = settled_cycles(view_.gait, evidence_.starts, curve.foot);
     if (cycles.empty()) {
       verdict.remark = "no settled " + to_string(view_.gait.cycle);
       return verdict;
     }
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(curve.share.size());
-    for (const Cycle* cycle : cycles) {
-      mean += cycle->curves.front() / static_cast<double>(cycles.size());
+    const MeanCurve mean = mean_curve(cycles, c);
+    double sum = 0.0;
+    double worst = 0.0;
+    double until = 0.0;
+    long points = 0;
+    for (Eigen::Index k = 0; k < curve.at.size(); ++k) {
+      if (2 * mean.count[k] >= static_cast<int>(cycles.size())) {
+        const double off = mean.mean[k] - curve.value[k];
+        sum += off * off;
+        worst = std::max(worst, std::abs(off));
+        until = curve.at[k];
+        ++points;
+      }
     }
-    const double rms = std::sqrt((mean - curve.value).squaredNorm() / static_cast<double>(mean.size()));
-    verdict.simulated = Spread{rms, 0.0, static_cast<long>(cycles.size())};
+    const double rms = std::sqrt(sum / static_cast<double>(std::max(points, 1L)));
+    verdict.simulated = Spread{rms, 0.0, 1};
     verdict.outside = std::max(0.0, rms - curve.tolerance.value);
+    verdict.remark =
+        fmt::format("{} over {:.3g}{}, largest {:.3g}", verdict.measure, until,
+                    curve.over_shares ? " of the cycle" : " s", worst / to_si_factor(verdict.unit));
+    if (curve.spread.size() > 0) {
+      const double scatter = std::sqrt(curve.spread.cwiseAbs2().mean());
+      verdict.remark += fmt::format("; measured scatter {:.3g}", scatter / to_si_factor(verdict.unit));
+    }
+    verdict.curve = {curve.channel, curve.over_shares, curve.at,      curve.value,
+                     curve.spread,  mean.mean,         mean.deviation};
     return verdict;
   }
 

@@ -33,6 +33,12 @@ struct Verdict {
   std::optional<Spread> simulated;          ///< SI; none: not measured in this run
   double outside = 0.0;  ///< by how much the simulated one is outside the tolerance, SI, signed
   std::string remark;    ///< why not, or what to know about the number
+  /// Of a curve: where it is held against the simulated one, SI. No channel: the verdict is of a number.
+  struct Curve {
+    std::string channel;
+    bool over_shares = false;
+    Eigen::VectorXd at, published, spread, simulated, deviation;
+  } curve;
   bool holds() const { return simulated && outside == 0.0; }
 };
 

@@ -83,8 +83,8 @@ std::vector<TuneResult> try_all(const PublishedGait& published, const std::vecto
     result.constants = sets[s];
     result.cost = gait_cost(published.gait, own, options.enough, quantities);
     result.share = share_of("", own, options.enough);
-    const auto cycles = settled_cycles(published.gait, own);
     for (std::size_t q = 0; q < quantities.size(); ++q) {
+      const auto cycles = settled_cycles(published.gait, own, quantities[q].foot);
       result.means.push_back(spread_of(values_of(cycles, q)).mean);
     }
     results.push_back(std::move(result));
@@ -149,8 +149,8 @@ double gait_cost(const Gait& gait, const std::vector<GaitRun>& runs, long enough
     missing += 1.0 - std::min(1.0, static_cast<double>(run.cycles.size()) / static_cast<double>(enough));
   }
   double cost = kFallCosts * missing / static_cast<double>(runs.size());
-  const std::vector<const Cycle*> cycles = settled_cycles(gait, runs);
   for (std::size_t q = 0; q < quantities.size(); ++q) {
+    const std::vector<const Cycle*> cycles = settled_cycles(gait, runs, quantities[q].foot);
     double square = cycles.empty() ? kNoCycle * kNoCycle : 0.0;
     for (const Cycle* cycle : cycles) {
       const double off = quantities[q].deviation(cycle->values[q]);

@@ -156,8 +156,39 @@ Eigen::VectorXd RigidWalker::touchdown(const Eigen::VectorXd& x, double impact_s
   return after;
 }
 
+// A polynomial of degree 4 in s with both values at its beginning, and with value, slope and curvature zero
+// at its end: as Bezier coefficients (value, value + slope length/4, 0, 0, 0).
+CurvePoint RigidWalker::Correction::at(double theta) const {
+  const double s = length > 0.0 ? (theta - begin) / length : 1.0;
+  if (s >= 1.0) {
+    return {};
+  }
+  const double a = value;
+  const double b = value + 0.25 * slope * length;
+  const double r = 1.0 - s;
+  return {r * r * r * (a * r + 4.0 * b * s), 4.0 * r * r * (-a * r + b * (r - 3.0 * s)) / length,
+          12.0 * r * (a * r - 2.0 * b * (r - s)) / (length * length)};
+}
+
+void RigidWalker::correct(const Eigen::VectorXd& x) {
+  const GaitCoordinates q = coordinates(x, false);
+  const GaitCoordinates v = coordinates(x, true);
+  const controllers::WalkingGait& gait = gait_.gait;
+  const std::array<CurvePoint, 4> h = wanted(gait, WalkPhase::motor_compress, q[0]);
+  // The motor of the stance leg is at rest when mc ends; the torso's curve ends with si, the swing leg's with
+  // the step.
+  const std::array<double, 4> ends{gait.theta_mc, 0.5 * (gait.theta_begin + gait.theta_end),
+                                   0.5 * (gait.theta_begin + gait.theta_end),
+                                   0.5 * (gait.theta_begin + gait.theta_si)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto row = kFirstOutput + static_cast<int>(i);
+    corrections_[i] = {q[0], std::max(0.0, ends[i] - q[0]), q[row] - h[i].value,
+                       v[0] > 0.0 ? v[row] / v[0] - h[i].slope : 0.0};
+  }
+}
+
 // y'' = -2 w y' - w^2 y, all accelerations being affine in the torques.
-void RigidWalker::exact(const std::array<CurvePoint, 4>& h, const double* x, const GaitOptions& options,
+void RigidWalker::exact(const std::array<CurvePoint, 4>& h, const double* x, const RigidGaitOptions& options,
                         double* u) {
   const int n = plant_.positions();
   const Eigen::Map<const Eigen::VectorXd> z(x, n);
@@ -166,7 +197,11 @@ void RigidWalker::exact(const std::array<CurvePoint, 4>& h, const double* x, con
   Eigen::Vector4d right;
   const double theta_rate = rows_.row(0).dot(w);
   for (int i = 0; i < 4; ++i) {
-    const CurvePoint& curve = h[static_cast<std::size_t>(i)];
+    CurvePoint curve = h[static_cast<std::size_t>(i)];
+    const CurvePoint correction = corrections_[static_cast<std::size_t>(i)].at(rows_.row(0).dot(z));
+    curve.value += correction.value;
+    curve.slope += correction.slope;
+    curve.curvature += correction.curvature;
     D.row(i) = rows_.row(kFirstOutput + i) - curve.slope * rows_.row(0);
     const double y = rows_.row(kFirstOutput + i).dot(z) - curve.value;
     right[i] = curve.curvature * theta_rate * theta_rate - 2.0 * options.bandwidth * D.row(i).dot(w) -
@@ -190,7 +225,7 @@ void RigidWalker::exact(const std::array<CurvePoint, 4>& h, const double* x, con
   }
 }
 
-void RigidWalker::command(WalkPhase phase, const double* x, const GaitOptions& options, double* u) {
+void RigidWalker::command(WalkPhase phase, const double* x, const RigidGaitOptions& options, double* u) {
   const int n = plant_.positions();
   const Eigen::Map<const Eigen::VectorXd> z(x, n);
   const Eigen::Map<const Eigen::VectorXd> w(x + n, n);
@@ -233,7 +268,7 @@ double RigidWalker::event_value(WalkPhase phase, const double* x) {
   return ground_ - contact_.kinematics().foot(swing_foot_, x).position.z();
 }
 
-void RigidWalker::record(double t, WalkPhase phase, const double* x, const GaitOptions& options,
+void RigidWalker::record(double t, WalkPhase phase, const double* x, const RigidGaitOptions& options,
                          RigidStep& step) {
   const int n = plant_.positions();
   const Eigen::Map<const Eigen::VectorXd> z(x, n);
@@ -283,7 +318,7 @@ void RigidWalker::record(double t, WalkPhase phase, const double* x, const GaitO
   }
 }
 
-bool RigidWalker::until_event(Eigen::VectorXd& x, WalkPhase phase, const GaitOptions& options,
+bool RigidWalker::until_event(Eigen::VectorXd& x, WalkPhase phase, const RigidGaitOptions& options,
                               RigidStep& step) {
   const int states = plant_.states();
   integrate::RigidContactOde ode(
@@ -345,10 +380,16 @@ bool RigidWalker::until_event(Eigen::VectorXd& x, WalkPhase phase, const GaitOpt
   return false;
 }
 
-bool RigidWalker::walk(Eigen::VectorXd& x, const Walk& from, const GaitOptions& options, RigidStep& step) {
+bool RigidWalker::walk(Eigen::VectorXd& x, const Walk& from, const RigidGaitOptions& options,
+                       RigidStep& step) {
   contact_.hold({{stance_foot_}, {gait_.swing.spring}}, x.data());
   ground_ = contact_.kinematics().foot(stance_foot_, x.data()).position.z();
   contact_.project(x.data());
+  if (from.phase == WalkPhase::motor_compress) {
+    correct(x);
+  } else {
+    corrections_ = {};
+  }
   for (int phase = static_cast<int>(from.phase); phase < controllers::kWalkPhases; ++phase) {
     if (from.to_switch && phase == static_cast<int>(WalkPhase::spring_decompress)) {
       return true;
@@ -363,7 +404,7 @@ bool RigidWalker::walk(Eigen::VectorXd& x, const Walk& from, const GaitOptions& 
   return true;
 }
 
-RigidStep RigidWalker::step(const Eigen::VectorXd& start, const GaitOptions& options) {
+RigidStep RigidWalker::step(const Eigen::VectorXd& start, const RigidGaitOptions& options) {
   RigidStep step;
   step.least_normal = 1e9;
   Eigen::VectorXd x = start;
@@ -379,7 +420,8 @@ RigidStep RigidWalker::step(const Eigen::VectorXd& start, const GaitOptions& opt
   return step;
 }
 
-RigidWalker::FixedPoint RigidWalker::fixed_point(const Eigen::Vector3d& guess, const GaitOptions& options) {
+RigidWalker::FixedPoint RigidWalker::fixed_point(const Eigen::Vector3d& guess,
+                                                 const RigidGaitOptions& options) {
   FixedPoint point;
   point.at = guess;
   const Eigen::Vector3d steps(1e-4, 1e-4, 1e-3);
@@ -418,7 +460,7 @@ RigidWalker::FixedPoint RigidWalker::fixed_point(const Eigen::Vector3d& guess, c
   return point;
 }
 
-RigidWalker::FixedPoint RigidWalker::settle(const Eigen::VectorXd& start, const GaitOptions& options,
+RigidWalker::FixedPoint RigidWalker::settle(const Eigen::VectorXd& start, const RigidGaitOptions& options,
                                             int most, double tolerance) {
   FixedPoint point;
   Eigen::VectorXd x = start;
@@ -441,7 +483,7 @@ RigidWalker::FixedPoint RigidWalker::settle(const Eigen::VectorXd& start, const 
   return point;
 }
 
-Eigen::VectorXd RigidWalker::multipliers(const Eigen::VectorXd& start, const GaitOptions& options) {
+Eigen::VectorXd RigidWalker::multipliers(const Eigen::VectorXd& start, const RigidGaitOptions& options) {
   constexpr int kSize = 11;
   RigidStep ignored;
   Eigen::VectorXd x = start;

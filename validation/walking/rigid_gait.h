@@ -44,11 +44,15 @@ struct RigidGait {
 RigidGait read_rigid_gait(const std::string& path);
 
 enum class GaitControl {
-  exact,        ///< u such that y'' = -2 w y' - w^2 y: the constraints are kept
+  /// u such that y'' = -2 w y' - w^2 y, y = q - h - h_c: the constraints are kept. h_c takes up what an
+  /// impact
+  /// leaves of y and its rate and is gone by the middle of the constraint's first curve, so that the
+  /// constraints are met just after any impact (hybrid invariance: Sreenath et al. equations 45 to 47).
+  exact,
   feedforward,  ///< u*(theta) of the gait's file, plus PD (Sreenath et al. equation 43)
 };
 
-struct GaitOptions {
+struct RigidGaitOptions {
   GaitControl control = GaitControl::exact;
   double impact_scale = 1.0;  ///< eta: velocities after the impact times this (Sreenath et al. section VI-B)
   double bandwidth = 60.0;    ///< w of exact control, 1/s
@@ -86,7 +90,7 @@ class RigidWalker {
   /// Of a state just before touchdown.
   Eigen::Vector3d before_touchdown(const Eigen::VectorXd& end) const;
   /// From just after a touchdown.
-  RigidStep step(const Eigen::VectorXd& start, const GaitOptions& options);
+  RigidStep step(const Eigen::VectorXd& start, const RigidGaitOptions& options);
 
   /// A fixed point of touchdown to touchdown on the constraints, by Newton's method from `guess`.
   struct FixedPoint {
@@ -96,13 +100,14 @@ class RigidWalker {
     double residual = 0.0;
     std::string failure;
   };
-  FixedPoint fixed_point(const Eigen::Vector3d& guess, const GaitOptions& options);
+  FixedPoint fixed_point(const Eigen::Vector3d& guess, const RigidGaitOptions& options);
   /// The same for a controller that does not keep the constraints: steps until they repeat, at most `most`.
-  FixedPoint settle(const Eigen::VectorXd& start, const GaitOptions& options, int most, double tolerance);
+  FixedPoint settle(const Eigen::VectorXd& start, const RigidGaitOptions& options, int most,
+                    double tolerance);
 
   /// Eigenvalues, largest first, of the map from one switch of si to sd to the next: outputs, spring and
   /// their rates, and the rate of theta (11 numbers). `start`: of a step that repeats.
-  Eigen::VectorXd multipliers(const Eigen::VectorXd& start, const GaitOptions& options);
+  Eigen::VectorXd multipliers(const Eigen::VectorXd& start, const RigidGaitOptions& options);
 
   model::Plant& plant() { return plant_; }
   double theta(const Eigen::VectorXd& x) const { return rows_.row(0).dot(x.head(plant_.positions())); }
@@ -112,17 +117,24 @@ class RigidWalker {
     controllers::WalkPhase phase;
     bool to_switch = false;  // ends where si does, not at touchdown
   };
-  bool walk(Eigen::VectorXd& x, const Walk& from, const GaitOptions& options, RigidStep& step);
-  bool until_event(Eigen::VectorXd& x, controllers::WalkPhase phase, const GaitOptions& options,
+  bool walk(Eigen::VectorXd& x, const Walk& from, const RigidGaitOptions& options, RigidStep& step);
+  bool until_event(Eigen::VectorXd& x, controllers::WalkPhase phase, const RigidGaitOptions& options,
                    RigidStep& step);
   double event_value(controllers::WalkPhase phase, const double* x);
-  void command(controllers::WalkPhase phase, const double* x, const GaitOptions& options, double* u);
-  void exact(const std::array<controllers::CurvePoint, 4>& h, const double* x, const GaitOptions& options,
-             double* u);
+  void command(controllers::WalkPhase phase, const double* x, const RigidGaitOptions& options, double* u);
+  /// h_c at theta of each output, from its values at the beginning of a step.
+  struct Correction {
+    double begin = 0.0, length = 0.0;  // of theta, rad; length 0: none
+    double value = 0.0, slope = 0.0;   // at the beginning
+    controllers::CurvePoint at(double theta) const;
+  };
+  void correct(const Eigen::VectorXd& x);
+  void exact(const std::array<controllers::CurvePoint, 4>& h, const double* x,
+             const RigidGaitOptions& options, double* u);
   Eigen::VectorXd touchdown(const Eigen::VectorXd& x, double impact_scale, RigidStep* step);
   Eigen::VectorXd compose(const GaitCoordinates& q, const GaitCoordinates& v);
   GaitCoordinates coordinates(const Eigen::VectorXd& x, bool rates) const;
-  void record(double t, controllers::WalkPhase phase, const double* x, const GaitOptions& options,
+  void record(double t, controllers::WalkPhase phase, const double* x, const RigidGaitOptions& options,
               RigidStep& step);
 
   const RigidGait& gait_;
@@ -136,6 +148,7 @@ class RigidWalker {
   Eigen::RowVectorXd shapes_[2];
   Eigen::MatrixXd exchange_;
   double ground_ = 0.0;
+  std::array<Correction, 4> corrections_;
 };
 
 }  // namespace plumbline::validation
