@@ -107,8 +107,8 @@ TEST(Aslip, PathIsThePapers) {
   EXPECT_LT(std::sqrt(sum / static_cast<double>(table.rows())), 2e-4);
 }
 
-// Figure 6: 6 degrees less of pitch at the second lift-off, about the hip. Pitch and the speed of each flight are
-// the paper's.
+// Figure 6: 6 degrees less of pitch at the second lift-off, about the hip. Pitch and the speed of each flight
+// are the paper's.
 TEST(Aslip, RecoversFromThePapersPush) {
   AslipPush push;
   push.liftoff = 1;
