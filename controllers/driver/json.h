@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,7 +14,16 @@ namespace plumbline::driver {
 /// What is wrong with a file or a request, in one line.
 class DriverError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// One line whatever a file has in its names: control characters become spaces.
+  explicit DriverError(std::string what) : std::runtime_error(one_line(std::move(what))) {}
+
+ private:
+  static std::string one_line(std::string text) {
+    for (char& c : text) {
+      if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = ' ';
+    }
+    return text;
+  }
 };
 
 /// One value. Numbers are doubles; objects keep their members sorted by name.

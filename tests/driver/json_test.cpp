@@ -68,5 +68,9 @@ TEST(Json, RefusesWhatIsNotJson) {
   EXPECT_NO_THROW(parse_json(std::string(32, '[') + std::string(32, ']')));
 }
 
+TEST(DriverErrors, AreOneLine) {
+  EXPECT_STREQ(DriverError("name \"a\nb\x7f\": unknown").what(), "name \"a b \": unknown");
+}
+
 }  // namespace
 }  // namespace plumbline::driver
