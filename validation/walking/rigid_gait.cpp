@@ -36,25 +36,25 @@ RigidWalker::RigidWalker(const RigidGait& gait) : gait_(gait), plant_(gait.model
   swing_foot_ = names.index_of(gait.swing.foot);
   const int n = plant_.positions();
   rows_.resize(7, n);
-  rows_.row(0) = -names.row_of(gait.stance.leg_angle) - names.row_of(gait.torso);
+  rows_.row(0) = -names.row_of(gait.stance.angle) - names.row_of(gait.torso);
   rows_.row(1) = names.row_of(gait.stance.spring);
   rows_.row(2) = names.row_of(gait.swing.spring);
   rows_.row(kFirstOutput + controllers::kStanceShape) = names.row_of(gait.stance.shape_motor);
-  rows_.row(kFirstOutput + controllers::kSwingAngle) = names.row_of(gait.swing.leg_angle);
+  rows_.row(kFirstOutput + controllers::kSwingAngle) = names.row_of(gait.swing.angle);
   rows_.row(kFirstOutput + controllers::kSwingShape) = names.row_of(gait.swing.shape_motor);
   rows_.row(kFirstOutput + controllers::kTorso) = names.row_of(gait.torso);
   base_ = {names.row_of(gait.base[0]), names.row_of(gait.base[1])};
-  shapes_[0] = names.row_of(gait.stance.leg_shape);
-  shapes_[1] = names.row_of(gait.swing.leg_shape);
+  shapes_[0] = names.row_of(gait.stance.shape);
+  shapes_[1] = names.row_of(gait.swing.shape);
   motors_ = {motor_of(gait.model, gait.stance.angle_motor), motor_of(gait.model, gait.stance.shape_motor),
              motor_of(gait.model, gait.swing.angle_motor), motor_of(gait.model, gait.swing.shape_motor)};
   const auto sign = [&](const std::string& motor, const std::string& coordinate) {
     return names.row_of(motor).dot(names.row_of(coordinate)) < 0.0 ? -1.0 : 1.0;
   };
-  motor_signs_ = {sign(gait.stance.angle_motor, gait.stance.leg_angle),
-                  sign(gait.stance.shape_motor, gait.stance.leg_shape),
-                  sign(gait.swing.angle_motor, gait.swing.leg_angle),
-                  sign(gait.swing.shape_motor, gait.swing.leg_shape)};
+  motor_signs_ = {sign(gait.stance.angle_motor, gait.stance.angle),
+                  sign(gait.stance.shape_motor, gait.stance.shape),
+                  sign(gait.swing.angle_motor, gait.swing.angle),
+                  sign(gait.swing.shape_motor, gait.swing.shape)};
   // Roles are exchanged among the independent coordinates.
   const std::vector<std::string> states = plant_.state_names();
   const auto place = [&](const std::string& name) {
@@ -289,13 +289,13 @@ void RigidWalker::record(double t, WalkPhase phase, const double* x, const Rigid
       {{"phase", "1"}, static_cast<double>(phase)},
       {{"theta", "rad"}, rows_.row(0).dot(z)},
       {{"theta_rate", "rad/s"}, rows_.row(0).dot(w)},
-      {{"leg_angle_stance", "rad"}, -rows_.row(0).dot(z) - rows_.row(6).dot(z)},
-      {{"leg_angle_swing", "rad"}, rows_.row(4).dot(z)},
+      {{"angle_stance", "rad"}, -rows_.row(0).dot(z) - rows_.row(6).dot(z)},
+      {{"angle_swing", "rad"}, rows_.row(4).dot(z)},
       {{"shape_motor_stance", "rad"}, rows_.row(3).dot(z)},
       {{"shape_motor_swing", "rad"}, rows_.row(5).dot(z)},
-      {{"torso", "rad"}, rows_.row(6).dot(z)},
-      {{"leg_shape_stance", "rad"}, shapes_[0].dot(z)},
-      {{"leg_shape_swing", "rad"}, shapes_[1].dot(z)},
+      {{"trunk", "rad"}, rows_.row(6).dot(z)},
+      {{"shape_stance", "rad"}, shapes_[0].dot(z)},
+      {{"shape_swing", "rad"}, shapes_[1].dot(z)},
       {{"spring_stance", "rad"}, rows_.row(1).dot(z)},
       {{"spring_rate", "rad/s"}, rows_.row(1).dot(w)},
       {{"swing_height", "m"}, swing.position.z() - ground_},

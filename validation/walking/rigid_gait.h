@@ -18,7 +18,7 @@ namespace plumbline::validation {
 
 /// How a leg's parts are called in the model.
 struct GaitLeg {
-  std::string foot, leg_angle, leg_shape, angle_motor, shape_motor, spring;
+  std::string foot, angle, shape, angle_motor, shape_motor, spring;
 };
 
 /// `plumbline: rigid_gait/1`: which model, which gait, and what is what.

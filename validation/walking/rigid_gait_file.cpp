@@ -20,8 +20,8 @@ double number(const YamlNode& node, const char* unit) {
 GaitLeg read_leg(const YamlNode& node) {
   GaitLeg leg;
   const std::vector<std::pair<std::string, std::string*>> keys{{"foot", &leg.foot},
-                                                               {"leg_angle", &leg.leg_angle},
-                                                               {"leg_shape", &leg.leg_shape},
+                                                               {"angle", &leg.angle},
+                                                               {"shape", &leg.shape},
                                                                {"angle_motor", &leg.angle_motor},
                                                                {"shape_motor", &leg.shape_motor},
                                                                {"spring", &leg.spring}};
@@ -40,10 +40,11 @@ controllers::WalkingGait read_gait(const std::string& path, std::array<double, 4
   const std::vector<YamlNode> chain = model::read_chain(path, "controller/2");
   controllers::WalkingGait gait;
   std::vector<controllers::GaitNumber> numbers = controllers::numbers_of(gait);
-  const char* const outputs[] = {"stance_shape", "swing_angle", "swing_shape", "torso"};
+  const char* const kp_names[] = {"kp_stance_shape", "kp_swing_angle", "kp_swing_shape", "kp_torso"};
+  const char* const kd_names[] = {"kd_stance_shape", "kd_swing_angle", "kd_swing_shape", "kd_torso"};
   for (std::size_t i = 0; i < 4; ++i) {
-    numbers.push_back({std::string("kp_") + outputs[i], "N m/rad", &kp[i]});
-    numbers.push_back({std::string("kd_") + outputs[i], "N m s/rad", &kd[i]});
+    numbers.push_back({kp_names[i], "N m/rad", &kp[i]});
+    numbers.push_back({kd_names[i], "N m s/rad", &kd[i]});
   }
   for (const controllers::GaitNumber& one : numbers) {
     bool stated = false;
@@ -69,7 +70,7 @@ controllers::WalkingGait read_gait(const std::string& path, std::array<double, 4
 RigidGait read_rigid_gait(const std::string& path) {
   const YamlNode root = YamlNode::load(path);
   model::check_format(root, "rigid_gait/1");
-  root.allow_keys({"plumbline", "title", "model", "controller", "stance", "swing", "torso", "base",
+  root.allow_keys({"plumbline", "title", "model", "controller", "stance", "swing", "trunk", "base",
                    "exchange", "start", "mass", "published", "impact_scales"});
   RigidGait gait;
   gait.file = path;
@@ -84,7 +85,7 @@ RigidGait read_rigid_gait(const std::string& path) {
   gait.gait = read_gait(gait.gait_file, gait.kp, gait.kd);
   gait.stance = read_leg(root.at("stance"));
   gait.swing = read_leg(root.at("swing"));
-  gait.torso = root.at("torso").text();
+  gait.torso = root.at("trunk").text();
   const std::vector<YamlNode> base = root.at("base").items();
   if (base.size() != 2) {
     root.at("base").refuse("two coordinates: forward, up");
