@@ -9,7 +9,7 @@ ContactIntensity::ContactIntensity(const RigidGait& design)
     : design_(design), plant_(design.model, {}), contact_(plant_) {
   names_ = {design.base[0], design.base[1], design.torso};
   for (const GaitLeg* leg : {&design.stance, &design.swing}) {
-    names_.insert(names_.end(), {leg->leg_angle, leg->leg_shape, leg->spring});
+    names_.insert(names_.end(), {leg->angle, leg->shape, leg->spring});
   }
 }
 
