@@ -1,6 +1,7 @@
-// What the diagnosis of an earlier version got wrong on data that it had no part in, each as a test: twins of the
-// foreign world (worlds/), with nothing scattered. All are DISABLED_: none has been run on the present version, so that
-// none is known to pass, and each takes half a minute of processor or more. Run them one at a time:
+// What the diagnosis of an earlier version got wrong on data that it had no part in, each as a test: twins of
+// the foreign world (worlds/), with nothing scattered. All are DISABLED_: none has been run on the present
+// version, so that none is known to pass, and each takes half a minute of processor or more. Run them one at
+// a time:
 //   test_battery_blind --gtest_also_run_disabled_tests --gtest_filter='*Coulomb*'
 // One that passes loses the prefix.
 #include <gmock/gmock.h>

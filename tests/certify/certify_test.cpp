@@ -152,7 +152,7 @@ TEST(Requirements, WrongOnesAreRefusedInOneLine) {
     return std::string();
   };
   EXPECT_NE(refusal("runs: 12", "runs: -1").find("runs"), std::string::npos);
-  EXPECT_NE(refusal("multiplier:", "multiplyer:").find("multiplyer"), std::string::npos);
+  EXPECT_NE(refusal("workspace_margin:", "workspace_margine:").find("workspace_margine"), std::string::npos);
   EXPECT_NE(refusal("allocations: 0", "allocations: 3").find("allocations"), std::string::npos);
   EXPECT_NE(refusal("requirements/1", "requirements/2").find("requirements/1"), std::string::npos);
 }

@@ -74,7 +74,8 @@ TEST_P(Allocations, NoneInStepResetAndMemory) {
   EXPECT_EQ(allocations - before, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Libraries, Allocations, testing::Values("mabel_hopping", "hold_position", "atrias_running"));
+INSTANTIATE_TEST_SUITE_P(Libraries, Allocations,
+                         testing::Values("mabel_hopping", "hold_position", "atrias_running"));
 
 TEST(Allocations, AreCountedInALoadedLibraryToo) {
   const LoadedController loaded(find_controller("hold_position"));

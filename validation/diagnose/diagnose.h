@@ -28,7 +28,7 @@ struct DiagnoseOptions {
   double consistent_far = 1.0;   ///< the same disagreement there: the held-out motion must not ask for none
   double hopeless = 20.0;        ///< error after several effects above which no pair is looked for
   double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
-  bool dear = true;               ///< far above the floor also laws that take many times the model's work
+  bool dear = true;              ///< far above the floor also laws that take many times the model's work
   std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
   int resamples = 400;
   unsigned seed = 1;

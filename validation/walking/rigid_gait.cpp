@@ -51,10 +51,9 @@ RigidWalker::RigidWalker(const RigidGait& gait) : gait_(gait), plant_(gait.model
   const auto sign = [&](const std::string& motor, const std::string& coordinate) {
     return names.row_of(motor).dot(names.row_of(coordinate)) < 0.0 ? -1.0 : 1.0;
   };
-  motor_signs_ = {sign(gait.stance.angle_motor, gait.stance.angle),
-                  sign(gait.stance.shape_motor, gait.stance.shape),
-                  sign(gait.swing.angle_motor, gait.swing.angle),
-                  sign(gait.swing.shape_motor, gait.swing.shape)};
+  motor_signs_ = {
+      sign(gait.stance.angle_motor, gait.stance.angle), sign(gait.stance.shape_motor, gait.stance.shape),
+      sign(gait.swing.angle_motor, gait.swing.angle), sign(gait.swing.shape_motor, gait.swing.shape)};
   // Roles are exchanged among the independent coordinates.
   const std::vector<std::string> states = plant_.state_names();
   const auto place = [&](const std::string& name) {
