@@ -1,6 +1,8 @@
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/model/known_effects.h"
@@ -35,38 +37,48 @@ bool is_trial(const std::string& path) {
   return kind.text() == "trial/1";
 }
 
-nlohmann::json check_model(const std::string& path, const Options& options,
-                           const effects::Catalogue& catalogue) {
+/// What a file says, for the JSON and for the reader.
+struct Checked {
+  nlohmann::json json;
+  std::function<void()> print;
+};
+
+Checked check_model(const std::string& path, const Options& options, const effects::Catalogue& catalogue) {
   const model::Model model = model::read_model(path, catalogue);
   const Freedom freedom = api::freedom_of(model, {});
   const std::vector<MeshOfBody> meshes = meshes_of(model, options.density);
   nlohmann::json json = api::to_json(model, freedom);
   json["meshes"] = to_json(meshes);
-  print(model, freedom);
-  print(meshes, options.density);
-  return json;
+  return {json, [=] {
+            print(model, freedom);
+            print(meshes, options.density);
+          }};
 }
 
-nlohmann::json check_trial(const std::string& path, const Options& options,
-                           const effects::Catalogue& catalogue) {
+Checked check_trial(const std::string& path, const Options& options, const effects::Catalogue& catalogue) {
   const std::string file = options.model.empty() ? validation::model_of_trial(path) : options.model;
   const model::Model model = model::read_model(file, catalogue);
   const validation::Trial trial = validation::read_trial(path, model, {options.data_folder});
   const Freedom freedom = api::freedom_of(model, trial.locks);
   validation::check_command_units(model, trial);
-  print(trial, model, freedom);
-  return api::to_json(trial, model, freedom);
+  return {api::to_json(trial, model, freedom), [=] { print(trial, model, freedom); }};
 }
 
-/// One after the other; the JSON of several is a list.
+/// The JSON of several is a list. It is written first: where it cannot be, nothing is printed.
 void run(const Options& options) {
   const effects::Catalogue catalogue = model::known_effects();
   nlohmann::json all = nlohmann::json::array();
+  std::vector<std::function<void()>> prints;
   for (const std::string& path : options.paths) {
-    all.push_back(is_trial(path) ? check_trial(path, options, catalogue)
-                                 : check_model(path, options, catalogue));
+    Checked one =
+        is_trial(path) ? check_trial(path, options, catalogue) : check_model(path, options, catalogue);
+    all.push_back(std::move(one.json));
+    prints.push_back(std::move(one.print));
   }
   write_json(all.size() == 1 ? all.front() : all, options.json);
+  for (const auto& print : prints) {
+    print();
+  }
 }
 
 }  // namespace
