@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "simulator/effects/catalogue.h"
+#include "validation/gait/drawn_models.h"
 
 namespace plumbline::validation {
 namespace {
@@ -33,13 +33,6 @@ class Draw {
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
 };
-
-model::EffectUse torque_factor(const std::string& motor, double factor) {
-  model::Quantity scale;
-  scale.value = factor;
-  scale.source = "drawn";
-  return {effects::Catalogue::all().find("torque_constant_error"), motor, {scale}, 0};
-}
 
 }  // namespace
 

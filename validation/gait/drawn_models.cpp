@@ -16,14 +16,14 @@ void scale_stiffness(model::EffectUse& use, double factor) {
   }
 }
 
+}  // namespace
+
 model::EffectUse torque_factor(const std::string& motor, double factor) {
   model::Quantity scale;
   scale.value = factor;
   scale.source = "drawn";
   return {effects::Catalogue::all().find("torque_constant_error"), motor, {scale}, 0};
 }
-
-}  // namespace
 
 std::vector<model::Model> draw_models(const model::Model& model, int count, double share,
                                       std::uint64_t seed) {
