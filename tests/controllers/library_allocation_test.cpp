@@ -75,7 +75,8 @@ TEST_P(Allocations, NoneInStepResetAndMemory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, Allocations,
-                         testing::Values("mabel_hopping", "hold_position", "atrias_running"));
+                         testing::Values("mabel_hopping", "hold_position", "atrias_running",
+                                         "thumper_running"));
 
 TEST(Allocations, AreCountedInALoadedLibraryToo) {
   const LoadedController loaded(find_controller("hold_position"));
