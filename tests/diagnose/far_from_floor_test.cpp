@@ -14,7 +14,6 @@
 #include "validation/diagnose/friction_everywhere.h"
 #include "validation/diagnose/objection.h"
 #include "validation/diagnose/own_parameters.h"
-#include "validation/diagnose/zero_errors.h"
 #include "validation/predict/lost_windows.h"
 #include "validation/twin/twin.h"
 
@@ -94,22 +93,6 @@ TEST(LostWindows, AreNamedAndTheOthersStay) {
   EXPECT_DOUBLE_EQ(lost.front().from, data.trials.front().time[data.windows[1].first]);
   EXPECT_FALSE(lost.front().reason.empty());
   EXPECT_EQ(kept.windows.size() + 1, data.windows.size());
-}
-
-// A hopper whose height is recorded 25 mm too high never meets its ground: no slope leads there. Its zero
-// error begins where the foot has stood.
-TEST(ZeroErrors, BeginWhereTheFootHasStood) {
-  Data data({test::hopper_trial(test::hopper(), "bounce")}, {});
-  Trial& trial = data.trials.front();
-  trial.switches.clear();
-  trial.contact_events.clear();
-  const std::string height = trial.measured.front().sensor;
-  trial.measured.front().values.array() += 0.025;
-  trial.measured.front().offset_uncertainty = 0.03;
-  const model::Model model = with_zero_errors(test::hopper(), data);
-  ASSERT_EQ(model.effects.back().label(), "encoder_offset at " + height);
-  EXPECT_NEAR(model.effects.back().values.front().value, 0.025, 0.002);
-  EXPECT_EQ(model.effects.back().values.front().uncertainty, 0.03);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/pair_step.h"
 #include "validation/diagnose/same_force.h"
-#include "validation/diagnose/zero_errors.h"
 #include "validation/predict/initial_states.h"
 #include "validation/predict/kept_results.h"
 #include "validation/predict/lost_windows.h"
@@ -103,7 +102,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   const Data some = kept.thinned(options.windows);
   try {
     const Followed tried =
-        diagnose_windows(with_zero_errors(model, kept), catalogue, some, options, progress, diagnosis);
+        diagnose_windows(model, catalogue, some, options, progress, diagnosis);
     finish(kept, tried, some, options, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
     diagnosis.test_before = test_error(model, data);

@@ -68,10 +68,9 @@ Settled StateSearch::if_better(const Eigen::VectorXd& x0, const Reduced& than) {
 }
 
 void StateSearch::take_last_step(Settled& at) {
-  constexpr double kMatters = 1e-3;
   Reduced& one = at.reduced;
   const Eigen::VectorXd there = at.x0 + one.x_shift;
-  if (!one.curved || one.raw_sse <= (1.0 + kMatters) * one.sse) {
+  if (!one.curved) {
     at.x0 = there;
     return;
   }

@@ -1,6 +1,7 @@
-#include "validation/diagnose/zero_errors.h"
+#include "validation/predict/zero_errors.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "simulator/effects/catalogue.h"
+#include "validation/predict/standing_feet.h"
 
 namespace plumbline::validation {
 namespace {
@@ -141,6 +143,39 @@ Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<Z
   return offsets;
 }
 
+/// Released ratios' stretches at the first sample, as the sensors say.
+Eigen::VectorXd stretches(const model::Model& model, const Data& data) {
+  Predictor predictor(model, data.trials.front(), data.predict);
+  return predictor.plant().stretch_map() * predictor.measured_positions().col(0);
+}
+
+bool shows_motor(const model::Model& model, const std::string& sensor) {
+  const std::string& measured = model.sensors[static_cast<std::size_t>(model.sensor_index(sensor))].measures;
+  return std::any_of(model.motors.begin(), model.motors.end(),
+                     [&](const model::Motor& motor) { return motor.name == measured; });
+}
+
+/// The motors' offsets changed so that the stretches are those without any offset.
+Eigen::VectorXd with_motors_zeroed(const model::Model& model, const std::vector<ZeroError>& errors,
+                                   const Data& data, Eigen::VectorXd offsets) {
+  const auto count = static_cast<Eigen::Index>(errors.size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(count);
+  const auto stretches_with = [&](const Eigen::VectorXd& some) {
+    return stretches(with_offsets(model, errors, some), data);
+  };
+  const Eigen::VectorXd wanted = stretches_with(none);
+  if (wanted.size() == 0) {
+    return offsets;
+  }
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(wanted.size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (shows_motor(model, errors[static_cast<std::size_t>(i)].sensor)) {
+      J.col(i) = stretches_with(Eigen::VectorXd::Unit(count, i)) - wanted;  // linear in the offsets
+    }
+  }
+  return offsets + J.completeOrthogonalDecomposition().solve(wanted - stretches_with(offsets));
+}
+
 }  // namespace
 
 model::Model with_zero_errors(const model::Model& model, const Data& data) {
@@ -151,9 +186,18 @@ model::Model with_zero_errors(const model::Model& model, const Data& data) {
   const bool has_switches = std::any_of(data.trials.begin(), data.trials.end(),
                                         [](const Trial& trial) { return !trial.switches.empty(); });
   const bool is_in_air = model.feet.empty() || has_switches;
-  return with_offsets(model, errors,
-                      is_in_air ? Eigen::VectorXd::Zero(static_cast<Eigen::Index>(errors.size()))
-                                : offsets_on_ground(model, errors, data));
+  const auto count = static_cast<Eigen::Index>(errors.size());
+  if (is_in_air) {
+    return with_offsets(model, errors, Eigen::VectorXd::Zero(count));
+  }
+  Eigen::VectorXd deviations(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    deviations[i] = errors[static_cast<std::size_t>(i)].deviation;
+  }
+  const Eigen::VectorXd offsets = offsets_of_standing_feet(
+      data, [&](const Eigen::VectorXd& some) { return with_offsets(model, errors, some); }, deviations,
+      offsets_on_ground(model, errors, data));
+  return with_offsets(model, errors, with_motors_zeroed(model, errors, data, offsets));
 }
 
 }  // namespace plumbline::validation

@@ -13,7 +13,10 @@ namespace plumbline::validation {
 /// and S = diag(offset_uncertainty^2),
 ///   offsets = S J' (J S J' + s^2 I)^-1 (r - d),  s = 1 mm,
 /// the smallest offsets, each in units of its uncertainty, that put the feet on the ground. A foot that
-/// never stands, for which the depths near the deepest are few, is left out.
+/// never stands, for which the depths near the deepest are few, is left out. From there the feet are held
+/// still through every stance (offsets_of_standing_feet). A motor's encoder is zeroed against the joints that
+/// it drives: where joints' zeros move, motors' zeros follow, so that cables and springs stay as stretched as
+/// they were recorded, and `offset_uncertainty` of a motor is how well that was done.
 model::Model with_zero_errors(const model::Model& model, const Data& data);
 
 }  // namespace plumbline::validation
