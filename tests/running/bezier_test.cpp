@@ -31,11 +31,18 @@ TEST(Bezier, IsTheSumOfBernsteinPolynomials) {
   }
 }
 
-TEST(Bezier, GoesOnInAStraightLine) {
+TEST(Bezier, GoesOnSmoothlyIntoAStraightLine) {
   const Coefficients a{0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.5};
-  EXPECT_DOUBLE_EQ(bezier(a, -0.5).value, 0.0 - 0.5 * 6.0);
-  EXPECT_DOUBLE_EQ(bezier(a, 2.0).value, 3.5 + 6.0 * 0.5);
+  constexpr double h = 1e-5;
+  for (const double s : {-0.3, -0.1, -0.04, -1e-9, 1.0, 1.03, 1.0999, 1.2}) {
+    const Curve below = bezier(a, s - h), curve = bezier(a, s), above = bezier(a, s + h);
+    EXPECT_NEAR(curve.slope, (above.value - below.value) / (2 * h), 1e-3) << s;
+    EXPECT_NEAR(curve.bend, (above.slope - below.slope) / (2 * h), 1e-2) << s;
+    EXPECT_NEAR(above.bend, below.bend, 0.02) << s;
+  }
   EXPECT_DOUBLE_EQ(bezier(a, 2.0).bend, 0.0);
+  EXPECT_DOUBLE_EQ(bezier(a, 3.0).value - bezier(a, 2.0).value, bezier(a, 2.0).slope);
+  EXPECT_DOUBLE_EQ(bezier(a, -2.0).value - bezier(a, -1.0).value, -bezier(a, -1.0).slope);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/published/validate.h"
+#include "validation/running/published_running.h"
 
 namespace plumbline::cli {
 namespace {
@@ -87,13 +88,15 @@ void print(const GaitValidation& done, long enough) {
                     verdict_text(verdict), verdict.remark});
   }
   print_table({"quantity", "published", "simulated", "tolerance", "verdict", ""}, rows);
-  fmt::print("\nWithout a published counterpart:\n\n");
-  rows.clear();
-  for (const validation::Share& share : done.shares) {
-    rows.push_back({share.what, fmt::format("{} of {}", share.sustained, share.runs),
-                    fmt::format("{:.0f}", share.median_cycles)});
+  if (!done.shares.empty()) {
+    fmt::print("\nWithout a published counterpart:\n\n");
+    rows.clear();
+    for (const validation::Share& share : done.shares) {
+      rows.push_back({share.what, fmt::format("{} of {}", share.sustained, share.runs),
+                      fmt::format("{:.0f}", share.median_cycles)});
+    }
+    print_table({"runs", fmt::format("sustain {} cycles", enough), "median"}, rows);
   }
-  print_table({"runs", fmt::format("sustain {} cycles", enough), "median"}, rows);
   fmt::print("\nA cycle lasts {:.3f} s on average.\n", done.duration);
   if (done.not_measured() > 0) {
     fmt::print("{} of {} published quantities were not measured: the gait does not pass.\n",
@@ -256,8 +259,22 @@ void run_models(Options& options, Outcome& outcome) {
   outcome.status = holds ? 0 : 1;
 }
 
+/// A motion on the paper's own model: no scenario, no starts.
+void run_on_its_model(const std::string& file, const Options& options, Outcome& outcome) {
+  const validation::PublishedRunning published = validation::read_published_running(file);
+  const GaitValidation done = validation::validate_running(published);
+  print(done, options.run.enough);
+  write_json({{"robot", published.title}, {"gaits", {to_json(done)}}, {"holds", done.holds()}}, options.json);
+  outcome.status = done.holds() ? 0 : 1;
+}
+
 void run(Options options, Outcome& outcome) {
   check_writable(options.json);
+  const std::string file = published_file(options.robot);
+  if (validation::is_published_running(file)) {
+    run_on_its_model(file, options, outcome);
+    return;
+  }
   options.run.run.integrator.set_tolerance(options.tolerance);
   options.run.stop = &stop_flag();
   options.run.orbit = !options.no_orbit;
@@ -266,8 +283,7 @@ void run(Options options, Outcome& outcome) {
     run_models(options, outcome);
     return;
   }
-  const validation::PublishedRobot robot =
-      validation::read_published(published_file(options.robot), options.published);
+  const validation::PublishedRobot robot = validation::read_published(file, options.published);
   nlohmann::json json{{"robot", robot.title}, {"gaits", nlohmann::json::array()}};
   bool holds = true;
   for (const validation::PublishedGait& gait : robot.gaits) {

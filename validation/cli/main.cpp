@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "simulator/trace/error.h"
+#include "validation/cli/command_running.h"
 #include "validation/cli/command_walking.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/driving_commands.h"
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_robot(app, outcome);
     plumbline::cli::add_gait(app, outcome);
     plumbline::cli::add_step_down(app);
+    plumbline::cli::add_running(app, outcome);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
