@@ -80,6 +80,17 @@ void Running::lift_off(const State& state, double height) {
   bend(shape_, gait_.shape, state.q[kLegShape], state.v[kLegShape] * per_second, gait_.shape[kOrder]);
 }
 
+void Running::drop(const State& state, double height) {
+  lift_off(state, height);
+  const auto straight = [](Coefficients& a, double end) {
+    for (std::size_t k = 2; k <= kOrder; ++k) {
+      a[k] = end;
+    }
+  };
+  straight(toe_, beta_[2]);
+  straight(shape_, gait_.shape[kOrder]);
+}
+
 Vector2 Running::torque(const State& state, const Dynamics& d) {
   // y = c(q) - h(s(q)): y' = J v, y'' = J q'' + rest.
   Matrix26 jacobian = Matrix26::Zero();

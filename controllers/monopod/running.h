@@ -59,6 +59,8 @@ class Running {
   void decompress() { phase_ = Phase::decompression; }
   /// `height`: of the centre of mass over the ground.
   void lift_off(const State& state, double height);
+  /// Let go in the air: straight to the touchdown's pose, without the swing of a whole flight.
+  void drop(const State& state, double height);
 
   Phase phase() const { return phase_; }
   /// True once theta has passed the end of the polynomials.

@@ -6,7 +6,10 @@
 namespace plumbline::monopod {
 namespace {
 
-constexpr int kSettle = 4;          // samples until the first rates are worth something
+constexpr int kSettle = 4;   // samples until the first rates are worth something
+constexpr int kBounced = 5;  // samples with an open switch that are no lift-off while the motor injects
+constexpr double kShortestFlight =
+    0.03;                           // s: a switch that closes before has not been open; a flight lasts 0.12 s
 constexpr double kMostLean = 1.0;   // rad: no stride leans by more than 0.2
 constexpr double kMostBend = 1.3;   // rad of leg shape: no stride bends by more than 0.5
 constexpr double kRestBend = 0.02;  // rad of B_Spring: less is within two counts of its stop
@@ -20,7 +23,7 @@ void SampledRunning::reset() {
   running_ = Running(p_.model, p_.gait);
   state_ = State();
   acceleration_.setZero();
-  samples_ = open_ = 0;
+  samples_ = open_ = flown_for_ = 0;
   flown_ = false;
   fault_ = kNone;
 }
@@ -35,9 +38,13 @@ void SampledRunning::filter(const Sample& sample) {
   }
   const Vector6 foretold = state_.q + period_ * state_.v + 0.5 * period_ * period_ * acceleration_;
   const Vector6 off = measured - foretold;
-  const bool begins = samples_ < kSettle;  // nothing is known yet: difference quotients
-  state_.q = foretold + (begins ? 1.0 : p_.position_share) * off;
-  state_.v += period_ * acceleration_ + (begins ? 1.0 : p_.rate_share) / period_ * off;
+  // Begins as the straight line of least squares through all samples so far, whose shares shrink with their
+  // number, until those shares reach the filter's own.
+  const double n = samples_ + 1.0;
+  const double position = std::max(p_.position_share, 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0)));
+  const double rate = std::max(p_.rate_share, 6.0 / (n * (n + 1.0)));
+  state_.q = foretold + position * off;
+  state_.v += period_ * acceleration_ + rate / period_ * off;
 }
 
 void SampledRunning::follow_events(const Sample& sample) {
@@ -46,12 +53,12 @@ void SampledRunning::follow_events(const Sample& sample) {
   switch (running_.phase()) {
     case Phase::flight:
       if (!flown_) {
-        // The polynomials of the first flight begin wherever the robot is let go.
         const Dynamics d = dynamics(c, state_);
-        running_.lift_off(state_, d.com[1] - d.toe[1]);
+        running_.drop(state_, d.com[1] - d.toe[1]);
         flown_ = true;
+        flown_for_ = static_cast<int>(kShortestFlight / period_);  // it was in the air before
       }
-      if (sample.contact) {
+      if (++flown_for_ * period_ > kShortestFlight && sample.contact) {
         const State before = state_;
         const Dynamics d = dynamics(c, before);
         state_.v = impact(d, stance(d), before.v);
@@ -69,10 +76,14 @@ void SampledRunning::follow_events(const Sample& sample) {
       }
       [[fallthrough]];
     case Phase::decompression:
-      if (open_ > 0) {
+      // Lift-off is where the spring comes to its stop or the ground no longer carries; a foot that has
+      // bounced comes back while the motor still injects.
+      if (open_ > (running_.phase() == Phase::injection ? kBounced : 0) ||
+          (running_.phase() == Phase::decompression && deflection(c, state_.q) < 0.0)) {
         const Dynamics d = dynamics(c, state_);
         state_.v = impact(d, flight(c, d), state_.v);
         running_.lift_off(state_, d.com[1] - d.toe[1]);
+        flown_for_ = 0;
       }
       return;
   }

@@ -38,7 +38,8 @@ class SampledRunning {
   State state_;
   Vector6 acceleration_ = Vector6::Zero();
   int samples_ = 0;
-  int open_ = 0;  // samples since the switch has opened
+  int open_ = 0;       // samples since the switch has opened
+  int flown_for_ = 0;  // samples since the last lift-off
   bool flown_ = false;
   int fault_ = kNone;
 };

@@ -14,7 +14,8 @@ void Sensors::read(const Eigen::VectorXd& outputs, const std::vector<model::Touc
   for (Eigen::Index s = 0; s < sensors; ++s) {
     const model::Sensor& sensor = model_.sensors[static_cast<std::size_t>(s)];
     double value = sensing::with_noise(outputs[s], options_.noise ? sensor.noise : 0.0, random_);
-    sensed.counts[s] = 0.0;
+    // What a port of counts sees of an exact position is a count with its fraction.
+    sensed.counts[s] = sensor.resolution > 0.0 ? value / sensor.resolution : 0.0;
     if (options_.quantise && sensor.resolution > 0.0) {
       const sensing::Encoder encoder{sensor.resolution, 1.0, 0.0};
       const std::int64_t counts = encoder.counts(value);

@@ -39,6 +39,18 @@ TEST(Sensors, CountsAreTheNearestAndReadingsWhatTheyMean) {
   EXPECT_EQ(sensed.switches[0], 0.0);
 }
 
+TEST(Sensors, WithoutQuantisationCountsKeepTheirFraction) {
+  const model::Model model = two_sensors(0.0);
+  SensorOptions options;
+  options.quantise = false;
+  Sensors sensors(model, options);
+  Sensed sensed;
+  sensors.read(Eigen::Vector2d(0.26, 0.26), std::vector<model::Touch>(1), sensed);
+  EXPECT_DOUBLE_EQ(sensed.counts[0], 2.6);
+  EXPECT_DOUBLE_EQ(sensed.readings[0], 0.26);
+  EXPECT_EQ(sensed.counts[1], 0.0);
+}
+
 TEST(Sensors, NoiseHasItsDeviationAndComesAgainWithTheSeed) {
   const model::Model model = two_sensors(0.5);
   SensorOptions options;

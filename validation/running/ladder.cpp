@@ -21,6 +21,7 @@ constexpr double kStep = 2.5e-4;  // s, of the integration on the paper's model
 // is above what counts leave.
 constexpr std::size_t kFirst = 3, kLast = 14, kLeast = 2;
 constexpr double kNoise = 0.02;  // of the push
+constexpr double kAbove = 2.0;   // times the wandering of a run that is not pushed
 
 LadderRung read_rung(const YamlNode& node) {
   node.allow_keys({"name", "model", "controller", "period", "counts", "set"});
@@ -122,19 +123,31 @@ class Climber {
     return run_gait(loaded, view, options);
   }
 
+  /// By how much the speed of a run that is not pushed changes from stride to stride once it has settled,
+  /// m/s: root mean square. A push that has come down to it can no longer be followed.
+  static double wandering(const GaitRun& run) {
+    double sum = 0.0;
+    const std::size_t begin = run.cycles.size() / 2, end = run.cycles.size();
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      sum += std::pow(run.cycles[k].values[1] - run.cycles[k - 1].values[1], 2);
+    }
+    return end > begin + 1 ? std::sqrt(sum / static_cast<double>(end - begin - 1)) : 0.0;
+  }
+
   void contract(const GaitRun& nominal, const GaitRun& pushed, RungResult& result) const {
     const auto off = [&](std::size_t k) {
       return std::abs(pushed.cycles[k].values[1] - nominal.cycles[k].values[1]);
     };
     const std::size_t count = std::min(nominal.cycles.size(), pushed.cycles.size());
+    const double floor = std::max(kNoise * std::abs(ladder_.push), kAbove * wandering(nominal));
     std::size_t last = kFirst;
-    while (last + 1 < count && last < kLast && off(last + 1) > kNoise * std::abs(ladder_.push)) {
+    while (last + 1 < count && last < kLast && off(last + 1) > floor) {
       ++last;
     }
     if (nominal.run.fell || pushed.run.fell) {
       result.no_contraction = "it falls";
     } else if (last < kFirst + kLeast) {
-      result.no_contraction = "gone at once";
+      result.no_contraction = floor > kNoise * std::abs(ladder_.push) ? "lost in noise" : "gone at once";
     } else {
       result.contraction = std::pow(off(last) / off(kFirst), 1.0 / static_cast<double>(last - kFirst));
     }
