@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "validation/predict/lost_windows.h"
+#include "validation/predict/zero_errors.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {
@@ -47,9 +48,10 @@ void append_tests(const Compared& tests, Compared& all) {
 
 Compared compare(const Loaded& loaded) {
   const validation::Data& data = *loaded.data;
-  Compared compared = data.trials.empty() ? Compared() : compare_trials(loaded.model, data);
+  const model::Model model = validation::with_zero_errors(loaded.model, data);
+  Compared compared = data.trials.empty() ? Compared() : compare_trials(model, data);
   if (!data.tests.empty()) {
-    append_tests(compare_trials(loaded.model, data.of_tests()), compared);
+    append_tests(compare_trials(model, data.of_tests()), compared);
   }
   return compared;
 }

@@ -6,6 +6,7 @@
 #include "simulator/model/robot_file.h"
 #include "validation/compare/compare.h"
 #include "validation/compare/rung_name.h"
+#include "validation/predict/zero_errors.h"
 
 namespace plumbline::api {
 namespace {
@@ -28,7 +29,8 @@ LadderRung climb(const Loaded& loaded, const validation::EffectNames& known) {
   rung.name = validation::rung_name(loaded.model, known);
   rung.has_train = loaded.data->has(Role::train);
   rung.has_held_out = loaded.data->has(Role::held_out);
-  rung.scores = validation::compare(loaded.model, *loaded.data).scores;
+  rung.scores =
+      validation::compare(validation::with_zero_errors(loaded.model, *loaded.data), *loaded.data).scores;
   rung.trials = validation::whole_trials(loaded.model, *loaded.data);
   return rung;
 }

@@ -5,7 +5,6 @@
 #include "simulator/trace/error.h"
 #include "validation/inverse_model/inverse_model.h"
 #include "validation/predict/kept_results.h"
-#include "validation/predict/zero_errors.h"
 #include "validation/report/repeat_json.h"
 
 namespace plumbline::api {
@@ -36,7 +35,6 @@ Loaded load(const model::Model& model, std::vector<validation::Trial> trials, do
   predict.window = window;
   loaded.data = std::make_unique<validation::Data>(std::move(trials), predict);
   loaded.data->stop = stop;
-  loaded.model = validation::with_zero_errors(model, *loaded.data);
   return loaded;
 }
 

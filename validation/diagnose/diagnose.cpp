@@ -14,6 +14,7 @@
 #include "validation/predict/kept_results.h"
 #include "validation/predict/lost_windows.h"
 #include "validation/predict/reach.h"
+#include "validation/predict/zero_errors.h"
 
 namespace plumbline::validation {
 namespace {
@@ -102,7 +103,7 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   const Data some = kept.thinned(options.windows);
   try {
     const Followed tried =
-        diagnose_windows(model, catalogue, some, options, progress, diagnosis);
+        diagnose_windows(with_zero_errors(model, kept), catalogue, some, options, progress, diagnosis);
     finish(kept, tried, some, options, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
     diagnosis.test_before = test_error(model, data);

@@ -141,7 +141,7 @@ std::vector<FreeParameter> stated_parameters(const model::Model& model, double w
       parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
       parameter.mean = quantity.value;
       parameter.deviation = quantity.uncertainty;
-      parameter.typical = quantity.value != 0.0 ? std::abs(quantity.value) : quantity.uncertainty;
+      parameter.typical = std::max(std::abs(quantity.value), quantity.uncertainty);
       free.push_back(parameter);
     }
   }

@@ -189,9 +189,7 @@ class Search {
       slow = at_end || cost() < (1.0 - options_.tolerance) * before ? 0 : slow + 1;
       at_end = at_end || slow == kSlow;
     }
-    if (data_.has_segments()) {
-      states_.settle_lost(typical(reduced_), kRoughly, true, Point(here_), here_, reduced_);
-    }
+    states_.settle_lost(typical(reduced_), kRoughly, true, Point(here_), here_, reduced_);
     states_.take_last_step(here_, reduced_);
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
     result.iterations = iterations;
@@ -240,13 +238,10 @@ class Search {
   /// The cost there in units of the present one with its tolerance; infinite where it cannot be integrated.
   double go_if_better(Point there) {
     try {
-      std::vector<Reduced> next =
-          data_.has_segments() ? states_.reduce_some(data_.all_windows(), there) : states_.reduce_at(there);
+      std::vector<Reduced> next = states_.reduce_some(data_.all_windows(), there);
       states_.shorten(here_, reduced_, there, next);
       states_.settle(curved(next), {}, there, next);
-      if (data_.has_segments()) {
-        states_.settle_lost(promised(there), {}, false, here_, there, next);
-      }
+      states_.settle_lost(promised(there), kRoughly, false, here_, there, next);
       if (!is_finite(next)) {
         return std::numeric_limits<double>::infinity();
       }

@@ -264,6 +264,18 @@ void InitialStates::settle_anew(const std::vector<int>& windows, const Settling&
   }
 }
 
+void InitialStates::stay_where_better(const Point& from, const std::vector<Reduced>& before,
+                                      const std::vector<int>& windows, Point& to,
+                                      std::vector<Reduced>& after) {
+  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int k) {
+    const int w = windows[static_cast<std::size_t>(k)];
+    const auto i = static_cast<std::size_t>(w);
+    if (after[i].raw_sse > before[i].raw_sse) {
+      take_if_better(w, search(w, to).if_better(from.x0[i], after[i]), to, after[i]);
+    }
+  });
+}
+
 void InitialStates::shorten(const Point& from, const std::vector<Reduced>& before, Point& to,
                             std::vector<Reduced>& after) {
   constexpr int kHalvings = 6;
@@ -273,6 +285,7 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
   std::vector<int> worse = curved(before);
   std::vector<int> in_vain(before.size(), 0);
   Point shorter = to;
+  stay_where_better(from, before, worse, to, after);
   for (int i = 0; i < kHalvings; ++i) {
     const auto is_done = [&](int w) {
       const auto at = static_cast<std::size_t>(w);

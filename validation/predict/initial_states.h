@@ -68,6 +68,9 @@ class InitialStates {
 
  private:
   StateSearch search(int window, const Point& point);
+  /// Windows that a step made worse begin where they began before it, where that is better.
+  void stay_where_better(const Point& from, const std::vector<Reduced>& before,
+                         const std::vector<int>& windows, Point& to, std::vector<Reduced>& after);
   std::vector<Reduced> reduce_those_that_run(const std::vector<int>& windows, const Point& point);
   /// The state in which the window that ends where this one begins ends.
   std::optional<Eigen::VectorXd> end_of_the_one_before(int window, int before, const Point& point);

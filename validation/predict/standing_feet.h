@@ -17,8 +17,9 @@ namespace plumbline::validation {
 /// counts one independent sample every 20 ms.
 ///
 /// A foot stands where it is within 3 cm of the depth that it reaches, moves by less than 0.5 m/s and stays
-/// within 2 cm along the ground, for at least 80 ms; which samples these are is looked up anew at every step. `with_offsets` gives the model with
-/// some offsets, rad or m, deviations are in the same units. Without a stance: `start`.
+/// within 2 cm along the ground, for at least 80 ms; which samples these are is looked up anew at every step.
+/// `with_offsets` gives the model with some offsets, rad or m, deviations are in the same units. Without a
+/// stance: `start`.
 Eigen::VectorXd offsets_of_standing_feet(
     const Data& data, const std::function<model::Model(const Eigen::VectorXd&)>& with_offsets,
     const Eigen::VectorXd& deviations, const Eigen::VectorXd& start);

@@ -35,7 +35,7 @@ class StateSteps {
   }
 
  private:
-  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 10.0;
+  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 1e6;
   bool straight_;
   double share_ = 1.0, damping_ = 0.0;
 };
@@ -61,7 +61,14 @@ bool is_settled(const Reduced& reduced, const Settling& settling) {
 
 Settled StateSearch::from(const Eigen::VectorXd& x0) { return from(whole(), x0, true); }
 
-void StateSearch::settle(const Settling& settling, Settled& at) { settle(whole(), true, settling, at); }
+// The parameters' columns are more than the states' and of no use on the way: once, at the end.
+void StateSearch::settle(const Settling& settling, Settled& at) {
+  const Eigen::VectorXd began = at.x0;
+  settle(whole(), false, settling, at);
+  if (units_.size() > 0 && at.x0 != began) {
+    at = from(at.x0);
+  }
+}
 
 Settled StateSearch::if_better(const Eigen::VectorXd& x0, const Reduced& than) {
   return if_better(whole(), x0, true, than);
