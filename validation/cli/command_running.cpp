@@ -1,10 +1,9 @@
-#include "validation/cli/command_running.h"
-
 #include <fmt/core.h>
 
 #include <cmath>
 
 #include "simulator/trace/error.h"
+#include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"

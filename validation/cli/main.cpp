@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "simulator/trace/error.h"
-#include "validation/cli/command_running.h"
 #include "validation/cli/command_walking.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/driving_commands.h"

@@ -64,7 +64,7 @@ Settled StateSearch::from(const Eigen::VectorXd& x0) { return from(whole(), x0, 
 // The parameters' columns are more than the states' and of no use on the way: once, at the end.
 void StateSearch::settle(const Settling& settling, Settled& at) {
   const Eigen::VectorXd began = at.x0;
-  settle(whole(), false, settling, at);
+  settle(whole(), settling, at);
   if (units_.size() > 0 && at.x0 != began) {
     at = from(at.x0);
   }
@@ -103,7 +103,7 @@ Settled StateSearch::grown(const Eigen::VectorXd& start, const Settling& settlin
     const double share = static_cast<double>(k) / kParts;
     const Window part = beginning_of(whole(), trial, share);
     Settled at = from(part, x0, false);
-    settle(part, false, settling, at);
+    settle(part, settling, at);
     if (at.reduced.raw_sse > kFar * kFar * share * readings(data, window_)) {
       break;
     }
@@ -141,10 +141,10 @@ Settled StateSearch::if_better(const Window& part, const Eigen::VectorXd& x0, bo
   return than.raw_sse <= at.reduced.raw_sse ? at : from(part, x0, with_parameters);
 }
 
-void StateSearch::settle(const Window& part, bool with_parameters, const Settling& settling, Settled& at) {
+void StateSearch::settle(const Window& part, const Settling& settling, Settled& at) {
   StateSteps steps(settling.straight);
   for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling) && !steps.is_at_end(); ++i) {
-    Settled next = if_better(part, at.x0 + steps.step(at.reduced), with_parameters, at.reduced);
+    Settled next = if_better(part, at.x0 + steps.step(at.reduced), false, at.reduced);
     const bool better = next.reduced.raw_sse < at.reduced.raw_sse;
     steps.after(better);
     if (better) {

@@ -56,7 +56,7 @@ class StateSearch {
  private:
   const Window& whole() const { return pool_.data().windows[static_cast<std::size_t>(window_)]; }
   Settled from(const Window& part, const Eigen::VectorXd& x0, bool with_parameters);
-  void settle(const Window& part, bool with_parameters, const Settling& settling, Settled& at);
+  void settle(const Window& part, const Settling& settling, Settled& at);
   Settled if_better(const Window& part, const Eigen::VectorXd& x0, bool with_parameters, const Reduced& than);
 
   PredictorPool& pool_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/effects/catalogue.h"
+#include "validation/predict/foot_paths.h"
 #include "validation/predict/standing_feet.h"
 
 namespace plumbline::validation {
@@ -62,31 +63,11 @@ model::Model with_offsets(model::Model model, const std::vector<ZeroError>& erro
 /// Depths of each foot over the whole recorded motion, as the sensors say; feet x samples.
 std::vector<std::vector<double>> depths(const model::Model& model, const Data& data) {
   std::vector<std::vector<double>> all(model.feet.size());
-  for (const Trial& trial : data.trials) {
-    Predictor predictor(model, trial, data.predict);
-    model::Plant& plant = predictor.plant();
-    if (!plant.meets_ground()) {
-      continue;
-    }
-    const Eigen::MatrixXd positions = predictor.measured_positions();
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-    for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-      x.head(positions.rows()) = positions.col(k);
-      for (std::size_t f = 0; f < all.size(); ++f) {
-        all[f].push_back(plant.foot_depth(static_cast<int>(f), x.data()).depth);
-      }
-    }
+  for (const FootPath& path : foot_paths(model, data)) {
+    const Eigen::VectorXd depths = path.places.row(3);
+    all[path.foot].insert(all[path.foot].end(), depths.begin(), depths.end());
   }
   return all;
-}
-
-/// The depth that all but the deepest twentieth of the samples stay above.
-double reached(std::vector<double> depth) {
-  constexpr double kDeepest = 0.05;
-  const auto at =
-      depth.begin() + static_cast<std::ptrdiff_t>((1.0 - kDeepest) * static_cast<double>(depth.size() - 1));
-  std::nth_element(depth.begin(), at, depth.end());
-  return *at;
 }
 
 /// Has a foot stood: are many of its depths near the deepest?
@@ -97,7 +78,7 @@ bool has_stood(const std::vector<double>& depth) {
   if (depth.empty() || !std::isfinite(depth.front())) {
     return false;
   }
-  const double near = reached(depth) - kNear;
+  const double near = depth_reached(depth) - kNear;
   const auto many = std::count_if(depth.begin(), depth.end(), [&](double one) { return one > near; });
   return static_cast<double>(many) > kMany * static_cast<double>(depth.size());
 }
@@ -105,7 +86,6 @@ bool has_stood(const std::vector<double>& depth) {
 /// Where the feet that have stood say that the offsets begin.
 Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<ZeroError>& errors,
                                   const Data& data) {
-  constexpr double kRest = 5e-4;  // m, of a foot that carries a robot on a hard ground
   constexpr double kWell = 1e-3;  // m, how well a depth is known
   constexpr double kStep = 0.1;   // of an offset's deviation
   const auto count = static_cast<Eigen::Index>(errors.size());
@@ -128,12 +108,12 @@ Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<Z
     const std::vector<std::vector<double>> there = depths(with_offsets(model, errors, one), data);
     for (Eigen::Index f = 0; f < stood; ++f) {
       const std::size_t foot = feet[static_cast<std::size_t>(f)];
-      J(f, i) = (reached(there[foot]) - reached(here[foot])) / kStep;
+      J(f, i) = (depth_reached(there[foot]) - depth_reached(here[foot])) / kStep;
     }
   }
   Eigen::VectorXd missing(stood);
   for (Eigen::Index f = 0; f < stood; ++f) {
-    missing[f] = kRest - reached(here[feet[static_cast<std::size_t>(f)]]);
+    missing[f] = kDepthAtRest - depth_reached(here[feet[static_cast<std::size_t>(f)]]);
   }
   const Eigen::MatrixXd known = J * J.transpose() + kWell * kWell * Eigen::MatrixXd::Identity(stood, stood);
   Eigen::VectorXd offsets = J.transpose() * known.ldlt().solve(missing);
