@@ -194,7 +194,7 @@ class Certification {
     result["counts"] = Json::Array();
     result["sums"] = Json::Array();
     for (std::size_t m = 0; m < view.measures.size(); ++m) {
-      const std::vector<const Cycle*> settled = settled_cycles(gait_, runs);
+      const std::vector<const Cycle*> settled = settled_cycles(gait_, runs, requirements_.quantities[m].foot);
       double sum = 0.0;
       for (const double value : values_of(settled, m)) {
         sum += value;

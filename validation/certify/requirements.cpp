@@ -117,6 +117,7 @@ RequiredQuantity range_of(const PublishedQuantity& published) {
   quantity.unit = published.quantity.unit;
   quantity.factor = to_si_factor(quantity.unit);
   quantity.source = published.quantity.source;
+  quantity.foot = published.foot;
   const double value = published.quantity.value, tolerance = published.tolerance.value;
   if (published.relation != PublishedQuantity::Relation::at_most) quantity.from = value - tolerance;
   if (published.relation != PublishedQuantity::Relation::at_least) quantity.to = value + tolerance;

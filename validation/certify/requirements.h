@@ -23,6 +23,7 @@ struct RequiredQuantity {
   std::string unit;     ///< as written, for people
   double factor = 1.0;  ///< SI per unit
   std::string source;   ///< of the number
+  int foot = -1;        ///< only cycles that this foot's touchdown began, index in Gait::feet; -1: all
 };
 
 /// Quantities of a file of published numbers: value and tolerance stand there, once.
