@@ -91,5 +91,25 @@ TEST_F(Choose, ASimplerLawIsPreferredWhereMoreThanNoiseIsLeft) {
   EXPECT_EQ(named_at(1.5), 1);
 }
 
+// Far above the floor the constants of a law make up for what else is missing: a member of its family at its
+// place that does nearly as well without them is named.
+TEST_F(Choose, FarAboveTheFloorTheSimplerLawOfAFamilyIsEnough) {
+  ASSERT_GE(tried_.refits.size(), 2U);
+  tried_.refits.resize(2);
+  Refit& coulomb = tried_.refits[0];
+  Refit& viscous = tried_.refits[1];
+  viscous.own = 0;
+  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
+  const auto named_at = [&](double level, double times) {
+    set_squares(squares, {level * level}, data_, coulomb);
+    set_squares(squares, {times * times * level * level}, data_, viscous);
+    coulomb.estimate.scores = coulomb.estimate.predicted.scores;
+    return choose(tried_.stage, tried_.refits, data_, options_).named;
+  };
+  EXPECT_EQ(named_at(2.0, 1.15), 0);
+  EXPECT_EQ(named_at(10.0, 1.15), 1);
+  EXPECT_EQ(named_at(10.0, 1.4), 0);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

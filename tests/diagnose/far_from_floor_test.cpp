@@ -52,6 +52,60 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
   EXPECT_LT(group->stage.estimate.scores.train, 1.1);
 }
 
+// Hundreds of floors away it is asked before any single effect is refitted: by what these promise.
+TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004",
+                                 "coulomb@mLS:level=0.08", "viscous@mLS:damping=0.006"})
+                        .thinned(8);
+  const DiagnoseOptions options;
+  const Tried both =
+      screen_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, silent);
+  ASSERT_TRUE(both.refits.empty());
+  const std::optional<Group> group = friction_everywhere(both, data, options, silent);
+  ASSERT_TRUE(group);
+  EXPECT_LT(group->stage.estimate.scores.train, 1.1);
+  const Data one = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
+  EXPECT_FALSE(friction_everywhere(
+      screen_candidates(as_given(bench(), one), some_laws({"coulomb", "viscous"}), {}, one, silent), one,
+      options, silent));
+}
+
+// Half a second of a double pendulum that swings over is far from linear in where it begins. The step of a
+// window's initial state that leads it astray is damped; else such windows would refuse every step of the
+// parameters, however short.
+TEST(Search, WindowsThatAStraightLineLeadsAstrayHoldNothingBack) {
+  const model::Model bare =
+      model::read_model("tests/robots/double_pendulum/model.yaml", effects::Catalogue::all());
+  const auto with_friction = [&](double share) {
+    model::Model model = bare;
+    for (const char* use : {"coulomb@shoulder_motor:level=0.24", "coulomb@elbow_motor:level=0.17"}) {
+      model.effects.push_back(parse_effect(use, bare, effects::Catalogue::all()));
+      model.effects.back().values.front().value *= share;
+    }
+    return model;
+  };
+  const Trial trial =
+      twin(with_friction(1.0), read_experiment("tests/robots/double_pendulum/swing.yaml", bare), {});
+  PredictOptions options;
+  options.window = 1.0;
+  const Data data({trial}, options);
+  const model::Model start = with_friction(0.02);
+  std::vector<FreeParameter> parameters;
+  for (int effect = 0; effect < 2; ++effect) {
+    for (const FreeParameter& one :
+         free_parameters_of(start.effects[static_cast<std::size_t>(effect)], effect, {}, true)) {
+      parameters.push_back(one);
+    }
+  }
+  ASSERT_EQ(parameters.size(), 2U);
+  PredictorPool pool(start, data);
+  ASSERT_GT(estimate_states(pool).scores.train, 30.0);
+  const Estimate found = gauss_newton(pool, parameters, values_of(start, parameters), {}, {12, 1e-3, false});
+  EXPECT_LT(found.scores.train, 1.1);
+  EXPECT_NEAR(found.theta[0], 0.24, 0.002);
+  EXPECT_NEAR(found.theta[1], 0.17, 0.002);
+}
+
 // One friction alone is named by itself: a group of several that does no better is none.
 TEST(FrictionEverywhere, IsNothingWhereOneIsEnough) {
   const Data data = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);

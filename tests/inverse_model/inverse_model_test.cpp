@@ -64,6 +64,24 @@ TEST_F(InverseModelTest, PendulumWithGearAndGravity) {
   EXPECT_NEAR(inverse.motors[0].velocity.maxCoeff(), 50.0 * swing.v.maxCoeff(), 0.5);
 }
 
+// A count of 1 mm at 1 kHz, low-passed at 40 Hz and differenced twice: white noise of standard deviation s
+// has the density 2 s^2 T up to half the sample rate, so that the acceleration's is s sqrt(2 T (2 pi)^4
+// f^5/5) below f. The filters are no walls, hence half as much either way.
+TEST_F(InverseModelTest, WhatACoarseEncoderAloneMakesOfTheForce) {
+  model::Sensor& sensor = carriage.sensors.front();
+  sensor.resolution = 1e-3;
+  sensor.noise = 0.0;
+  const Trial trial = motion.trial("q", motion.q, force / slider::kGain);
+  const InverseModel inverse = inverse_model(carriage, trial, {});
+  const double s = 1e-3 / std::sqrt(12.0);
+  const double acceleration = s * std::sqrt(2.0 * 1e-3 * std::pow(2.0 * M_PI, 4) * std::pow(40.0, 5) / 5.0);
+  const std::vector<double> floors = force_floors(carriage, trial, inverse, {});
+  ASSERT_EQ(floors.size(), 1U);
+  EXPECT_NEAR(floors[0], slider::kMass * acceleration, 0.5 * slider::kMass * acceleration);
+  sensor.resolution = 1e-6;
+  EXPECT_NEAR(force_floors(carriage, trial, inverse, {})[0], 1e-3 * floors[0], 1e-6 * floors[0]);
+}
+
 TEST_F(InverseModelTest, SaysWhyItIsNotAvailable) {
   const Trial trial = motion.trial("q", motion.q, force / slider::kGain);
   const model::Model bare = carriage;

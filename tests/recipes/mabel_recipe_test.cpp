@@ -22,9 +22,9 @@ class MabelRecipe : public testing::Test {
     result_ = run_recipe(recipe_, options, [](const std::string&, double) {});
   }
 
-  static const Finding& finding(const std::string& step, const std::string& unknown) {
+  static const IdentifiedValue& finding(const std::string& step, const std::string& unknown) {
     for (const StepResult& result : result_.steps) {
-      for (const Finding& found : result.findings) {
+      for (const IdentifiedValue& found : result.findings) {
         if (result.step == step && found.unknown == unknown) {
           return found;
         }
@@ -43,7 +43,7 @@ RecipeResult MabelRecipe::result_;
 TEST_F(MabelRecipe, MeetsItsTargetsAndNeverSawTheStatedValues) {
   int targets = 0;
   for (std::size_t s = 0; s < recipe_.steps.size(); ++s) {
-    for (const Finding& found : result_.steps[s].findings) {
+    for (const IdentifiedValue& found : result_.steps[s].findings) {
       const Unknown& unknown = recipe_.unknown(found.unknown);
       if (!recipe_.steps[s].carried || !unknown.target) {
         continue;
@@ -62,7 +62,7 @@ TEST_F(MabelRecipe, SaysHowSureItIs) {
   int known = 0;
   int far = 0;
   for (std::size_t s = 0; s < recipe_.steps.size(); ++s) {
-    for (const Finding& found : result_.steps[s].findings) {
+    for (const IdentifiedValue& found : result_.steps[s].findings) {
       const auto truth = result_.truth.find(found.unknown);
       if (recipe_.steps[s].carried && found.seen && truth != result_.truth.end()) {
         ++known;
@@ -82,7 +82,7 @@ TEST_F(MabelRecipe, RecoversTheGroundFromLandings) {
   EXPECT_LT(ground->after, ground->before);
   EXPECT_LT(ground->after, 1.1);
   EXPECT_TRUE(ground->converged);
-  for (const Finding& found : ground->findings) {
+  for (const IdentifiedValue& found : ground->findings) {
     const double truth = result_.truth.at(found.unknown);
     EXPECT_LT(std::abs(found.value - truth), 4.0 * found.deviation) << found.unknown;
     EXPECT_TRUE(std::isfinite(found.upper - found.lower)) << found.unknown;

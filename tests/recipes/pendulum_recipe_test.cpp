@@ -30,7 +30,7 @@ TEST(PendulumRecipe, FindsATrueValueThatIsNotTheStatedOne) {
   EXPECT_GT(std::abs(truth - 1e-4), 1e-6);
   ASSERT_EQ(result.steps.size(), 1U);
   ASSERT_EQ(result.steps[0].findings.size(), 1U);
-  const Finding& found = result.steps[0].findings[0];
+  const IdentifiedValue& found = result.steps[0].findings[0];
   EXPECT_NEAR(found.value, truth, 0.02 * truth);
   EXPECT_NEAR(found.value, truth, 4.0 * found.deviation);  // one seed: four deviations, not two
   EXPECT_LT(found.deviation, 0.02 * truth);

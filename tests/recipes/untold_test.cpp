@@ -15,7 +15,7 @@ Unknown stated(const std::string& name, double value, double deviation) {
   return unknown;
 }
 
-Finding found(const std::string& name, double value, double half_width, bool seen = true) {
+IdentifiedValue found(const std::string& name, double value, double half_width, bool seen = true) {
   return {name, value, 0.5 * half_width, value - half_width, value + half_width, seen};
 }
 

@@ -206,7 +206,7 @@ class Certification {
   }
 
   Json orbit() const {
-    const std::optional<Section> section = read_section(loaded_);
+    const std::optional<PoincareSection> section = read_section(loaded_);
     if (!section) {
       throw InputError({requirements_.scenario, 0, "gait"}, "no section", "one, for the multiplier");
     }

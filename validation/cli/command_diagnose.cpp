@@ -45,10 +45,12 @@ void print_unexplained(const std::vector<UnexplainedForce>& forces) {
       }
     }
     rows.push_back({f.trial, f.at, f.below > 0.0 ? fmt::format("{:.3g} Hz", f.below) : "-",
-                    fmt::format("{:.3g} {}", f.rms, f.unit), fmt::format("{:.1f} %", 100.0 * f.relative),
-                    f.words, shares});
+                    fmt::format("{:.3g} {}", f.rms, f.unit),
+                    f.sensors > 0.0 ? fmt::format("{:.2g} {}", f.sensors, f.unit) : "-",
+                    fmt::format("{:.1f} %", 100.0 * f.relative), f.words, shares});
   }
-  print_table({"trial", "at", "below", "rms", "of the force", "it", "share of its variance that follows"},
+  print_table({"trial", "at", "below", "rms", "sensors alone", "of the force", "it",
+               "share of its variance that follows"},
               rows);
 }
 

@@ -11,7 +11,7 @@
 namespace plumbline::cli {
 namespace {
 
-using validation::Finding;
+using validation::IdentifiedValue;
 using validation::Recipe;
 using validation::RecipeResult;
 using validation::Step;
@@ -24,10 +24,12 @@ const double* true_value(const std::string& unknown, const Truth& truth) {
   return found == truth.end() ? nullptr : &found->second;
 }
 
-bool covers(const Finding& finding, double truth) { return finding.lower <= truth && truth <= finding.upper; }
+bool covers(const IdentifiedValue& finding, double truth) {
+  return finding.lower <= truth && truth <= finding.upper;
+}
 
 /// In the target's kind: a share of the true value, or in the unknown's unit.
-std::string error_text(const Unknown& unknown, const Finding& finding, double truth) {
+std::string error_text(const Unknown& unknown, const IdentifiedValue& finding, double truth) {
   const double error = finding.value - truth;
   const bool relative = unknown.target ? unknown.target->relative : truth != 0.0;
   return relative ? fmt::format("{:+.2f} %", 100.0 * error / truth) : fmt::format("{:+.2g}", error);
@@ -41,7 +43,7 @@ std::string target_text(const Unknown& unknown) {
                                   : fmt::format("{:g}", unknown.target->size);
 }
 
-std::string verdict_text(const Unknown& unknown, const Finding& finding, const Truth& truth) {
+std::string verdict_text(const Unknown& unknown, const IdentifiedValue& finding, const Truth& truth) {
   const double* value = true_value(unknown.name, truth);
   if (!finding.seen) {
     return "not seen";
@@ -61,7 +63,7 @@ std::string verdict_text(const Unknown& unknown, const Finding& finding, const T
   return inside;
 }
 
-std::vector<std::string> row(const Unknown& unknown, const Finding& finding, const Truth& truth) {
+std::vector<std::string> row(const Unknown& unknown, const IdentifiedValue& finding, const Truth& truth) {
   const double* value = true_value(unknown.name, truth);
   return {unknown.name,
           unknown.unit,
@@ -74,7 +76,7 @@ std::vector<std::string> row(const Unknown& unknown, const Finding& finding, con
 }
 
 /// What the data could tell: nothing is recovered, and the values are the model's own.
-std::vector<std::string> information_row(const Unknown& unknown, const Finding& finding) {
+std::vector<std::string> information_row(const Unknown& unknown, const IdentifiedValue& finding) {
   const double share = finding.deviation / std::abs(finding.value);
   return {unknown.name, unknown.unit, fmt::format("{:.5g}", finding.value),
           finding.seen ? fmt::format("{:.2g}", finding.deviation) : "inf",
@@ -85,7 +87,7 @@ void print_findings(const Recipe& recipe, const Step& step, const StepResult& re
                     double confidence) {
   const bool information = step.method == "information";
   std::vector<std::vector<std::string>> rows;
-  for (const Finding& finding : result.findings) {
+  for (const IdentifiedValue& finding : result.findings) {
     const Unknown& unknown = recipe.unknown(finding.unknown);
     rows.push_back(information ? information_row(unknown, finding) : row(unknown, finding, truth));
   }
@@ -151,7 +153,7 @@ Counts counts_of(const Recipe& recipe, const RecipeResult& result) {
     if (!recipe.steps[s].carried) {
       continue;
     }
-    for (const Finding& finding : result.steps[s].findings) {
+    for (const IdentifiedValue& finding : result.steps[s].findings) {
       const double* value = true_value(finding.unknown, result.truth);
       if (value == nullptr || !finding.seen) {
         continue;
@@ -166,7 +168,7 @@ Counts counts_of(const Recipe& recipe, const RecipeResult& result) {
   return counts;
 }
 
-nlohmann::json finding_json(const Recipe& recipe, const Finding& finding, const Truth& truth) {
+nlohmann::json finding_json(const Recipe& recipe, const IdentifiedValue& finding, const Truth& truth) {
   const Unknown& unknown = recipe.unknown(finding.unknown);
   const double* value = true_value(finding.unknown, truth);
   nlohmann::json json{{"unknown", finding.unknown},
@@ -209,7 +211,7 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
                       {"correlations", nlohmann::json::array()},
                       {"not_identifiable", nlohmann::json::array()},
                       {"weak", nlohmann::json::array()}};
-  for (const Finding& finding : result.findings) {
+  for (const IdentifiedValue& finding : result.findings) {
     // Nothing is recovered where only information is asked for.
     json["findings"].push_back(finding_json(recipe, finding, step.method == "information" ? Truth{} : truth));
   }
@@ -233,7 +235,7 @@ nlohmann::json step_json(const Recipe& recipe, const Step& step, const StepResul
 
 }  // namespace
 
-Verdict verdict_of(const Unknown& unknown, const Finding& finding, const Truth& truth) {
+Verdict verdict_of(const Unknown& unknown, const IdentifiedValue& finding, const Truth& truth) {
   const double* value = true_value(unknown.name, truth);
   if (!unknown.target || value == nullptr || !finding.seen) {
     return Verdict::none;

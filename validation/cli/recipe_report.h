@@ -9,7 +9,7 @@ namespace plumbline::cli {
 
 /// Whether a finding met the recipe's target; only where both the target and the true value are known.
 enum class Verdict { none, met, missed };
-Verdict verdict_of(const validation::Unknown& unknown, const validation::Finding& finding,
+Verdict verdict_of(const validation::Unknown& unknown, const validation::IdentifiedValue& finding,
                    const validation::Truth& truth);
 
 /// True when every target of a step that is carried on was met.

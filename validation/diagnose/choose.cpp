@@ -36,13 +36,25 @@ bool is_of_family(const Refit& one, const Refit& other) {
   return one.added.size() == 1 && other.added.size() == 1 && are_of_one_family(effect(one), effect(other));
 }
 
-/// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them.
+/// Far above the floor the constants of a law make up for what else is missing, and a law that does nearly as
+/// well without them says as much.
+constexpr double kNearlyFar = 1.25;
+
+/// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them. Far
+/// above the floor a law of the same family at the same place with fewer fitted parameters is near for
+/// longer.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
-                                   const std::vector<std::size_t>& contenders,
+                                   const std::vector<std::size_t>& contenders, const Data& data,
                                    const DiagnoseOptions& options) {
   std::vector<std::size_t> near;
+  if (contenders.empty()) {
+    return near;
+  }
+  const Refit& best = refits[contenders.front()];
+  const bool is_far = !is_below(options.far, best.estimate, data);
   for (const std::size_t i : contenders) {
-    if (together(refits[i]) < (1.0 + options.simpler) * together(refits[contenders.front()])) {
+    const bool is_simpler = is_far && refits[i].own < best.own && is_of_family(refits[i], best);
+    if (together(refits[i]) < (is_simpler ? kNearlyFar : 1.0 + options.simpler) * together(best)) {
       near.push_back(i);
     }
   }
@@ -59,7 +71,7 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
   for (bool all_seen = false; !all_seen;) {
     all_seen = true;
     choice.shares = selected_shares(stage, refits, contenders, data, options);
-    std::vector<std::size_t> asked = near_best(refits, contenders, options);
+    std::vector<std::size_t> asked = near_best(refits, contenders, data, options);
     for (const std::size_t i : contenders) {
       if (choice.shares[i] > kFair) {
         asked.push_back(i);
@@ -98,13 +110,12 @@ bool repeats_number(const Stage& stage, const Refit& refit) {
 std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std::vector<Refit>& refits,
                                                   std::vector<std::size_t> contenders, const Data& data,
                                                   const DiagnoseOptions& options, Choice& choice) {
-  constexpr double kNearly = 1.25;
   while (!contenders.empty() && repeats_number(stage, refits[contenders.front()]) &&
          !is_below(options.far, refits[contenders.front()].estimate, data)) {
     const auto other = std::find_if(contenders.begin(), contenders.end(),
                                     [&](std::size_t i) { return !repeats_number(stage, refits[i]); });
     if (other == contenders.end() ||
-        together(refits[*other]) > kNearly * together(refits[contenders.front()])) {
+        together(refits[*other]) > kNearlyFar * together(refits[contenders.front()])) {
       break;
     }
     choice.objections[contenders.front()] = "beyond all that is stated of it; an effect does nearly as well";
@@ -181,7 +192,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   if (contenders.empty()) {
     return choice;
   }
-  std::vector<std::size_t> near = near_best(refits, contenders, options);
+  std::vector<std::size_t> near = near_best(refits, contenders, data, options);
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
     if (is_near || is_of_family(refits[i], refits[contenders.front()])) {

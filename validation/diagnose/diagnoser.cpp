@@ -221,13 +221,23 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   // What is named already comes first: where it leaves much, the rest is described rather than searched for.
   DiagnoseOptions options = options_;
   options.dear = diagnosis.accepted.empty();
-  Tried tried = try_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_,
-                               options, progress_);
+  Tried tried =
+      screen_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_, progress_);
+  // Far above the floor the commonest truth comes first: it may save the refits of all single effects.
+  const bool is_far = !is_below(options_.hopeless, diagnosis.final_stage.estimate, data_);
+  std::optional<Group> group;
+  if (diagnosis.accepted.empty() && is_far) {
+    group = friction_everywhere(tried, data_, options_, progress_);
+  }
+  if (!group) {
+    refit_candidates(data_, options, progress_, tried);
+  }
   const Choice choice = choose(tried.stage, tried.refits, data_, options_);
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
-  const std::optional<Group> group =
-      diagnosis.accepted.empty() ? friction_everywhere(tried, data_, options_, progress_) : std::nullopt;
+  if (!group && diagnosis.accepted.empty()) {
+    group = friction_everywhere(tried, data_, options_, progress_);
+  }
   if (group) {
     accept_group(tried, *group, data_, diagnosis);
   } else if (choice.named >= 0) {

@@ -126,6 +126,16 @@ std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
   return Group{kept, std::move(all), 0.0};
 }
 
+/// Does it leave so little that no single effect needs to be refitted beside it?
+bool is_ahead_of_promises(const Refit& group, const Tried& tried) {
+  constexpr double kLeft = 0.25;
+  double promised = kLeft * tried.stage.estimate.predicted.scores.square();
+  for (const Hypothesis& hypothesis : tried.hypotheses) {
+    promised = std::min(promised, hypothesis.promised());
+  }
+  return group.square() < promised;
+}
+
 }  // namespace
 
 std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
@@ -149,7 +159,8 @@ std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, c
     group->share = share_better(one, best, data, options);
     const bool is_better = judged(one.estimate, data) < kBetter * judged(best.estimate, data) &&
                            judged(one.estimate, data) < kBetter * judged(tried.stage.estimate, data);
-    return is_better && group->share > options.stable ? group : std::nullopt;
+    const bool is_ahead = !tried.refits.empty() || is_ahead_of_promises(one, tried);
+    return is_better && is_ahead && group->share > options.stable ? group : std::nullopt;
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {

@@ -19,7 +19,8 @@ struct Group {
 /// Viscous and Coulomb friction at as many places as the robot moves independently, motors first, fitted at
 /// once from the stage that `tried` began from. Those that end at their bound or within two deviations of it
 /// are taken out, and the others fitted anew. Nothing where fewer than two are left, or where the error that
-/// counts is not at least a fifth below that of the best single effect.
+/// counts is not at least a fifth below that of the best single effect. Where none was refitted yet it must
+/// take three quarters of the squared error, and leave less than any single effect promises.
 std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
                                          const Progress& progress);
 

@@ -96,9 +96,8 @@ Refit refit_of(const Stage& fitted, const Stage& before) {
 
 }  // namespace
 
-Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
-                     const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
-                     const Progress& progress) {
+Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
+                        const std::vector<std::string>& taken, const Data& data, const Progress& progress) {
   Tried tried;
   tried.stage = stage;
   {
@@ -110,9 +109,21 @@ Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
   };
   tried.candidates.erase(std::remove_if(tried.candidates.begin(), tried.candidates.end(), is_taken),
                          tried.candidates.end());
-  const Data quick = without_stiffness(stage, data);
-  tried.hypotheses = screen(stage, tried.candidates, quick, progress);
-  tried.refits = refit(stage, tried.candidates, tried.hypotheses, quick, options, progress, &tried.failed);
+  tried.hypotheses = screen(stage, tried.candidates, without_stiffness(stage, data), progress);
+  return tried;
+}
+
+void refit_candidates(const Data& data, const DiagnoseOptions& options, const Progress& progress,
+                      Tried& tried) {
+  tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, without_stiffness(tried.stage, data),
+                       options, progress, &tried.failed);
+}
+
+Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
+                     const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
+                     const Progress& progress) {
+  Tried tried = screen_candidates(stage, catalogue, taken, data, progress);
+  refit_candidates(data, options, progress, tried);
   return tried;
 }
 

@@ -23,8 +23,15 @@ struct Tried {
   std::vector<NotRefitted> failed;
 };
 
-/// One round from `stage`: candidates of the catalogue that are not in `taken` ("law@place"), screened, the
-/// best refitted.
+/// One round from `stage`: candidates of the catalogue that are not in `taken` ("law@place"), screened.
+Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
+                        const std::vector<std::string>& taken, const Data& data, const Progress& progress);
+
+/// The best of what was screened, refitted.
+void refit_candidates(const Data& data, const DiagnoseOptions& options, const Progress& progress,
+                      Tried& tried);
+
+/// Both.
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
                      const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
                      const Progress& progress);

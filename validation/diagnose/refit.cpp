@@ -294,6 +294,11 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       finish_leader(stage, refits, candidates, data, progress);
     }
   };
+  const auto is_tried = [&](const Hypothesis& hypothesis) {
+    return std::any_of(refits.begin(), refits.end(),
+                       [&](const Refit& one) { return one.candidate == hypothesis.candidate; });
+  };
+  constexpr double kStillBetter = 0.5;
   constexpr double kMuch = 0.7;  // of the stage's squared error
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const bool is_explained =
@@ -309,12 +314,22 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     // best so far may itself be refused, and a promise made by a straight line says little.
     if (refits.size() < 2 || !at_floor(refits, data, options) ||
         chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
-      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()),
-          i < kThorough && chosen[i]->promised() < worth);
+      add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), false);
     }
   }
+  // The long way, by the windows' beginnings, where the promise is still far better than what was reached.
+  for (std::size_t i = 0; i < std::min(kThorough, chosen.size()); ++i) {
+    const bool is_open = refits.empty() || chosen[i]->promised() < kStillBetter * refits.front().square();
+    if (is_open && chosen[i]->promised() < worth && is_tried(*chosen[i]) &&
+        jumps(extend(stage, candidates[static_cast<std::size_t>(chosen[i]->candidate)], chosen[i]->start)
+                  .model.effects.back())) {
+      add(*chosen[i], 0.9, true);
+    }
+  }
+  keep_best_of_each(refits);
   finish(refits, candidates, data, options, progress);
-  if (!refits.empty() && !at_floor(refits, data, options)) {
+  // Where hundreds of floors remain beside what is named, another start of a threshold decides nothing.
+  if (!refits.empty() && !at_floor(refits, data, options) && (!is_far || options.dear)) {
     for (const Hypothesis* other : other_starts(refits, hypotheses)) {
       add(*other, 0.9, other->promised() < worth);
     }

@@ -1,11 +1,16 @@
 #include "validation/diagnose/revise.h"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "validation/diagnose/choose.h"
 #include "validation/diagnose/correlation.h"
+#include "validation/diagnose/family.h"
 #include "validation/diagnose/findings.h"
+#include "validation/diagnose/judged.h"
 #include "validation/diagnose/resample.h"
 
 namespace plumbline::validation {
@@ -21,7 +26,23 @@ struct InPlace {
   Refit refit;
 };
 
-/// Each rival that is a candidate of its own, refitted in the place of an effect.
+/// Is it a rival, or a law of fewer constants at a rival's place, which the rival may contain and owe what it
+/// explains?
+bool is_asked(const Candidate& candidate, const std::vector<Candidate>& all,
+              const std::vector<Rival>& rivals) {
+  return std::any_of(rivals.begin(), rivals.end(), [&](const Rival& rival) {
+    if (is_named(candidate, rival.name)) {
+      return true;
+    }
+    const auto of_rival =
+        std::find_if(all.begin(), all.end(), [&](const Candidate& one) { return is_named(one, rival.name); });
+    return of_rival != all.end() && candidate.place == of_rival->place && candidate.at == of_rival->at &&
+           is_friction(*candidate.law) && is_friction(*of_rival->law) &&
+           candidate.law->parameter_count() < of_rival->law->parameter_count();
+  });
+}
+
+/// Each rival that is a candidate of its own, refitted in the place of an effect, and what it may contain.
 std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Rival>& rivals,
                                     const effects::Catalogue& catalogue, const Data& data,
                                     const DiagnoseOptions& options, const Progress& progress) {
@@ -30,17 +51,31 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Riva
     PredictorPool pool(without.model, data);
     candidates = list_candidates(pool, catalogue, without.parameters, without.estimate);
   }
-  const auto is_no_rival = [&](const Candidate& candidate) {
-    return std::none_of(rivals.begin(), rivals.end(),
-                        [&](const Rival& rival) { return is_named(candidate, rival.name); });
-  };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_no_rival), candidates.end());
+  std::vector<Candidate> asked;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(asked),
+               [&](const Candidate& candidate) { return is_asked(candidate, candidates, rivals); });
+  candidates = std::move(asked);
   std::vector<InPlace> tried;
   for (const Refit& one :
        refit(without, candidates, screen(without, candidates, data, progress), data, options, progress)) {
     tried.push_back({candidates[static_cast<std::size_t>(one.candidate)], one});
   }
   return tried;
+}
+
+/// Of those nearly as good as the best the one of the fewest fitted parameters, then of the fewest constants.
+const InPlace& simplest_near_best(const std::vector<InPlace>& better, const DiagnoseOptions& options) {
+  const auto square = [](const InPlace& one) { return one.refit.square(); };
+  const double best =
+      square(*std::min_element(better.begin(), better.end(),
+                               [&](const InPlace& a, const InPlace& b) { return square(a) < square(b); }));
+  const double near = (1.0 + options.simpler) * (1.0 + options.simpler) * best;
+  const auto complexity = [&](const InPlace& one) {
+    return std::make_tuple(square(one) > near, one.refit.own, one.candidate.law->parameter_count(),
+                           square(one));
+  };
+  return *std::min_element(better.begin(), better.end(),
+                           [&](const InPlace& a, const InPlace& b) { return complexity(a) < complexity(b); });
 }
 
 void drop_rival(const Candidate& candidate, Finding& finding) {
@@ -105,19 +140,19 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
     const Stage without = fitted_anew(without_effect(final_stage, effect), data);
     Refit present;
     present.estimate = final_stage.estimate;
-    std::optional<InPlace> winner;
-    double share = options.stable;
-    for (const InPlace& one : tried_in_place(without, finding.rivals, catalogue, data, options, progress)) {
+    std::vector<InPlace> better;
+    for (InPlace& one : tried_in_place(without, finding.rivals, catalogue, data, options, progress)) {
       const double wins = share_better(one.refit, present, data, options);
       if (wins < kFair) {
         drop_rival(one.candidate, finding);
-      } else if (wins > share) {
-        winner = one;
-        share = wins;
+      } else if (wins > options.stable &&
+                 judged(one.refit.estimate, data) <= judged(present.estimate, data)) {
+        better.push_back(std::move(one));
       }
     }
-    if (winner) {
-      replace(i, *winner, without, share, data, diagnosis);
+    if (!better.empty()) {
+      const InPlace& winner = simplest_near_best(better, options);
+      replace(i, winner, without, share_better(winner.refit, present, data, options), data, diagnosis);
       return revise_rivals(catalogue, data, options, progress, diagnosis);
     }
   }

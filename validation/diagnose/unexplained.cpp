@@ -173,16 +173,24 @@ void add_plates(const Stage& stage, const Data& data, PredictorPool& pool, int t
 }  // namespace
 
 std::vector<UnexplainedForce> unexplained_forces(const Stage& stage, const Data& data) {
+  constexpr double kMostly = 0.7;  // of the root mean square: half of the variance
   const model::Model fitted = fitted_model(stage);
   PredictorPool pool(fitted, data);
   std::vector<UnexplainedForce> all;
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     const Trial& trial = data.trials[t];
     const InverseModel inverse = inverse_model(fitted, trial, {});
-    for (const NeededForce& force : inverse.motors) {
+    const std::vector<double> floors = force_floors(fitted, trial, inverse, {});
+    for (std::size_t m = 0; m < inverse.motors.size(); ++m) {
+      const NeededForce& force = inverse.motors[m];
       const model::Motor* motor = fitted.find_motor(force.motor);
       all.push_back(analyse(force, trial, motor == nullptr || motor->angular));
       all.back().below = inverse.cutoff;
+      all.back().sensors = floors[m];
+      if (floors[m] > kMostly * all.back().rms) {
+        all.back().dependences.clear();
+        all.back().words = "cannot be told from what the sensors alone make of it";
+      }
     }
     add_plates(stage, data, pool, static_cast<int>(t), all);
   }

@@ -29,7 +29,7 @@ struct Passage {
 /// Follows a run sample by sample and finds its passages.
 class PassageFinder {
  public:
-  PassageFinder(const Section& section, run::SampledRun& sampled)
+  PassageFinder(const PoincareSection& section, run::SampledRun& sampled)
       : section_(section), past_{sampled.simulation().state()} {}
 
   /// After each sample; a passage lies between this sample and the one before.
@@ -78,14 +78,14 @@ class PassageFinder {
     return passage;
   }
 
-  const Section& section_;
+  const PoincareSection& section_;
   std::deque<Eigen::VectorXd> past_;
   double value_ = 0.0;
   bool known_ = false;
 };
 
 /// Until the given number of passages, or the end.
-std::vector<Passage> passages_of(run::SampledRun& sampled, const Section& section,
+std::vector<Passage> passages_of(run::SampledRun& sampled, const PoincareSection& section,
                                  const run::Scenario& scenario, std::size_t count, std::string& end,
                                  const StopFlag* stop) {
   std::vector<Passage> passages;
@@ -133,7 +133,7 @@ int sensor_of(const model::Model& model, const std::string& position) {
 /// The map itself, with what does not change while it is evaluated.
 class ReturnMap {
  public:
-  ReturnMap(const run::LoadedScenario& loaded, const Section& section, const OrbitOptions& options)
+  ReturnMap(const run::LoadedScenario& loaded, const PoincareSection& section, const OrbitOptions& options)
       : loaded_(loaded), section_(section), options_(options) {
     if (loaded.controller) {
       held_setup_ = *loaded.controller;
@@ -247,7 +247,7 @@ class ReturnMap {
   }
 
   const run::LoadedScenario& loaded_;
-  const Section& section_;
+  const PoincareSection& section_;
   const OrbitOptions& options_;
   std::optional<run::ControllerSetup> held_setup_;
   Eigen::Index positions_ = 0;
@@ -309,7 +309,7 @@ void check_memory(const YamlNode& node, const run::LoadedScenario& loaded) {
 
 }  // namespace
 
-std::optional<Section> read_section(const run::LoadedScenario& loaded) {
+std::optional<PoincareSection> read_section(const run::LoadedScenario& loaded) {
   const auto gait = run::section_of_scenario(loaded.scenario.file, "gait");
   const auto node = gait ? gait->find("section") : std::nullopt;
   if (!node) {
@@ -317,7 +317,7 @@ std::optional<Section> read_section(const run::LoadedScenario& loaded) {
   }
   node->allow_keys({"rate_of", "position_of", "falls_through", "rises_through", "in_flight", "travel",
                     "travel_memory", "memory", "held"});
-  Section section;
+  PoincareSection section;
   section.rate = node->has("rate_of");
   const YamlNode of = node->at(section.rate ? "rate_of" : "position_of");
   const run::Quantity looked_at = position_named(of, loaded);
@@ -350,7 +350,8 @@ std::optional<Section> read_section(const run::LoadedScenario& loaded) {
   return section;
 }
 
-Orbit find_orbit(const run::LoadedScenario& loaded, const Section& section, const OrbitOptions& options) {
+Orbit find_orbit(const run::LoadedScenario& loaded, const PoincareSection& section,
+                 const OrbitOptions& options) {
   Orbit orbit;
   ReturnMap map(loaded, section, options);
   const std::vector<Passage> passages = map.run(orbit.why_not);

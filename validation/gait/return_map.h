@@ -13,7 +13,7 @@
 namespace plumbline::validation {
 
 /// Where a cycle is looked at, and what a gait does not depend on: the scenario's gait, key `section`.
-struct Section {
+struct PoincareSection {
   std::string position;       ///< whose rate (or which itself) passes the level
   bool rate = true;           ///< its rate
   bool falling = true;        ///< downward; else upward
@@ -26,7 +26,7 @@ struct Section {
   std::vector<std::pair<std::string, double>> held;  ///< constants of the controller that hold it
 };
 /// Nothing where the scenario's gait has none. Throws InputError.
-std::optional<Section> read_section(const run::LoadedScenario& loaded);
+std::optional<PoincareSection> read_section(const run::LoadedScenario& loaded);
 
 struct Orbit {
   bool settled = false;  ///< the gait lasted until it could be looked at
@@ -56,6 +56,7 @@ struct OrbitOptions {
 /// and sampling leave. A deviated state comes with a deviated past: the controller's filters are filled with
 /// the orbit's own samples before the section, moved by the deviation of position and velocity. With the
 /// memory held, u has none, and no travel, of which nothing depends.
-Orbit find_orbit(const run::LoadedScenario& loaded, const Section& section, const OrbitOptions& options);
+Orbit find_orbit(const run::LoadedScenario& loaded, const PoincareSection& section,
+                 const OrbitOptions& options);
 
 }  // namespace plumbline::validation

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
@@ -257,6 +258,36 @@ InverseModel inverse_model(const model::Model& model, const Trial& trial,
                              of_motor(motion.z), of_motor(motion.v), of_motor(motion.a)});
   }
   return result;
+}
+
+std::vector<double> force_floors(const model::Model& model, const Trial& trial, const InverseModel& inverse,
+                                 const InverseModelOptions& options) {
+  if (inverse.motors.empty()) {
+    return {};
+  }
+  constexpr unsigned kSeed = 1;  // any: the same answer twice
+  std::mt19937_64 random(kSeed);
+  std::normal_distribution<double> normal;
+  Trial noisy = trial;
+  for (Measured& channel : noisy.measured) {
+    const model::Sensor* stated = model.find_sensor(channel.sensor);
+    if (stated == nullptr) {
+      continue;
+    }
+    model::Sensor sensor = *stated;
+    sensor.resolution = channel.resolution.value_or(sensor.resolution);
+    sensor.noise = channel.noise.value_or(sensor.noise);
+    for (double& value : channel.values) {
+      value += sensor.floor() * normal(random);
+    }
+  }
+  const InverseModel moved = inverse_model(model, noisy, options);
+  std::vector<double> floors;
+  for (std::size_t m = 0; m < inverse.motors.size() && m < moved.motors.size(); ++m) {
+    const Eigen::VectorXd change = moved.motors[m].needed - inverse.motors[m].needed;
+    floors.push_back(std::sqrt(change.squaredNorm() / static_cast<double>(change.size())));
+  }
+  return floors;
 }
 
 bool CommandGain::implausible() const {

@@ -50,6 +50,13 @@ struct InverseModel {
 /// the motors that can move are as many as the independent positions.
 InverseModel inverse_model(const model::Model& model, const Trial& trial, const InverseModelOptions& options);
 
+/// What the sensors alone make of the needed force, one root mean square for each motor of `inverse`, N m or
+/// N: the difference that the floors of the position sensors, as white noise on top of what was measured,
+/// make after the same filters and differences. Differencing twice raises a coarse encoder's counts by (2 pi
+/// f)^2, so that a force error of this size says nothing of the model.
+std::vector<double> force_floors(const model::Model& model, const Trial& trial, const InverseModel& inverse,
+                                 const InverseModelOptions& options);
+
 /// How the needed force follows the commanded one: needed = gain * commanded, by least squares about the
 /// means. Nothing missing: gain 1. `core` is the same after everything was projected out that friction,
 /// springs and offsets missing from the model could explain (1, q, v, sign v): what is left is inertia.

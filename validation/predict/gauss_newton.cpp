@@ -178,6 +178,9 @@ class Search {
       states_.settle(curved(reduced_), {}, here_, reduced_);
     }
     expect_finite(reduced_);
+    for (const Reduced& one : reduced_) {
+      is_curved_.push_back(one.curved);
+    }
   }
 
   Estimate run() {
@@ -190,6 +193,7 @@ class Search {
       at_end = at_end || slow == kSlow;
     }
     states_.settle_lost(typical(reduced_), kRoughly, true, Point(here_), here_, reduced_);
+    keep_marks(reduced_);
     states_.take_last_step(here_, reduced_);
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
     result.iterations = iterations;
@@ -239,9 +243,12 @@ class Search {
   double go_if_better(Point there) {
     try {
       std::vector<Reduced> next = states_.reduce_some(data_.all_windows(), there);
+      mark_curved(next);
       states_.shorten(here_, reduced_, there, next);
+      keep_marks(next);
       states_.settle(curved(next), {}, there, next);
       states_.settle_lost(promised(there), kRoughly, false, here_, there, next);
+      keep_marks(next);
       if (!is_finite(next)) {
         return std::numeric_limits<double>::infinity();
       }
@@ -255,6 +262,23 @@ class Search {
       throw;
     } catch (const std::runtime_error&) {
       return std::numeric_limits<double>::infinity();  // the integrator gave up there: a shorter step
+    }
+  }
+
+  /// A straight line led these windows far astray: from now on their states' steps are damped, and their
+  /// squared residuals count as they are. A damping of the parameters alone would refuse every step for them.
+  void mark_curved(std::vector<Reduced>& next) {
+    constexpr double kAstray = 4.0;
+    for (std::size_t w = 0; w < next.size(); ++w) {
+      is_curved_[w] = is_curved_[w] || (!(next[w].raw_sse <= kAstray * reduced_[w].raw_sse) &&
+                                        is_above_floor(data_, static_cast<int>(w), next[w].raw_sse));
+      reduced_[w].curved = is_curved_[w];
+    }
+    keep_marks(next);
+  }
+  void keep_marks(std::vector<Reduced>& next) const {
+    for (std::size_t w = 0; w < next.size(); ++w) {
+      next[w].curved = is_curved_[w];
     }
   }
 
@@ -300,6 +324,7 @@ class Search {
   InitialStates states_;
   Point here_;
   std::vector<Reduced> reduced_;
+  std::vector<bool> is_curved_;
   Damping damping_;
 };
 

@@ -46,7 +46,7 @@ int read_foot(const YamlNode& node, const run::LoadedScenario& loaded, const Gai
 }
 
 PublishedQuantity read_one(const YamlNode& node, const run::LoadedScenario& loaded, const Gait& gait,
-                           const std::optional<Section>& section) {
+                           const std::optional<PoincareSection>& section) {
   node.allow_keys(
       {"name", "measure", "value", "at_most", "at_least", "tolerance", "over", "controller", "begins_with"});
   PublishedQuantity published;

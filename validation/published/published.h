@@ -54,7 +54,7 @@ struct PublishedGait {
   std::string name;
   run::LoadedScenario loaded;
   Gait gait;
-  std::optional<Section> section;
+  std::optional<PoincareSection> section;
   std::vector<PublishedQuantity> quantities;
   std::vector<PublishedCurve> curves;
   Place_in_file where;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kArxPeriod = 0.01;  // s: long against the encoder's noise, short against motor and command
 
-Finding finding_of(const std::string& unknown, double value, double deviation, double quantile) {
+IdentifiedValue finding_of(const std::string& unknown, double value, double deviation, double quantile) {
   return {unknown, value, deviation, value - quantile * deviation, value + quantile * deviation, true};
 }
 

@@ -10,7 +10,7 @@
 namespace plumbline::validation {
 
 /// One unknown as one step found it. SI.
-struct Finding {
+struct IdentifiedValue {
   std::string unknown;
   double value = 0.0;
   double deviation = 0.0;  ///< one standard deviation
@@ -33,8 +33,8 @@ struct StrongCorrelation {
 
 struct StepResult {
   std::string step;
-  std::vector<Finding> findings;                ///< free unknowns, in the recipe's order
-  std::vector<Finding> updated;                 ///< known unknowns, as they stand behind the step
+  std::vector<IdentifiedValue> findings;        ///< free unknowns, in the recipe's order
+  std::vector<IdentifiedValue> updated;         ///< known unknowns, as they stand behind the step
   std::vector<StrongCorrelation> correlations;  ///< between free unknowns, beyond 0.95
   std::vector<WeakDirection> weak;
   double before = 0.0, after = 0.0;  ///< error in units of the floor; 0: the method has none

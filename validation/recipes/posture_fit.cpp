@@ -159,8 +159,8 @@ Eigen::VectorXd solve(PostureProblem& problem, const std::vector<FreeParameter>&
   return theta;
 }
 
-Finding finding_of(const LinkedParameter& linked, double theta, double deviation, double quantile) {
-  Finding finding;
+IdentifiedValue finding_of(const LinkedParameter& linked, double theta, double deviation, double quantile) {
+  IdentifiedValue finding;
   finding.unknown = linked.link.unknown;
   finding.value = linked.link.unknown_of(theta);
   finding.deviation = deviation / std::abs(linked.link.slope(finding.value));

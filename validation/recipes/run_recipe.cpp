@@ -66,7 +66,7 @@ StepResult carry_out(const Recipe& recipe, const Step& step, const StepData& dat
 
 void carry_on(const StepResult& result, KnowledgeMap& knowledge) {
   for (const auto* list : {&result.findings, &result.updated}) {
-    for (const Finding& finding : *list) {
+    for (const IdentifiedValue& finding : *list) {
       if (finding.seen) {
         knowledge[finding.unknown] = {finding.value, finding.deviation};
       }

@@ -21,7 +21,7 @@ StrongCorrelation strongest(const StepResult& result, const std::string& unknown
 
 std::vector<Untold> untold(const Recipe& recipe, const StepResult& result) {
   std::vector<Untold> all;
-  for (const Finding& finding : result.findings) {
+  for (const IdentifiedValue& finding : result.findings) {
     const Unknown& unknown = recipe.unknown(finding.unknown);
     const double size = std::max({std::abs(finding.value), std::abs(unknown.value), unknown.deviation});
     const double width =

@@ -18,8 +18,8 @@ constexpr double kStrong = 0.95;                 // correlation worth a line
 constexpr double kSettled = 1e-8;                // relative change of the cost
 constexpr double kSettledThroughContact = 1e-6;  // less than the integrator's own error there would be noise
 
-Finding finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
-  Finding finding;
+IdentifiedValue finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
+  IdentifiedValue finding;
   finding.unknown = linked.link.unknown;
   finding.value = linked.link.unknown_of(fitted.after);
   finding.deviation = fitted.deviation / std::abs(linked.link.slope(finding.value));
@@ -62,7 +62,7 @@ Eigen::MatrixXd exact_information(const model::Model& model, Data data,
 
 /// What the sensors' floors alone would leave: the residuals are not those of a fit.
 void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
-                    const std::vector<LinkedParameter>& list, std::vector<Finding>& findings) {
+                    const std::vector<LinkedParameter>& list, std::vector<IdentifiedValue>& findings) {
   const Eigen::MatrixXd inverse = H.completeOrthogonalDecomposition().pseudoInverse();
   for (std::size_t p = 0; p < findings.size(); ++p) {
     const auto i = static_cast<Eigen::Index>(p);

@@ -85,6 +85,7 @@ nlohmann::json to_json(const UnexplainedForce& force) {
                       {"unit", force.unit},
                       {"rms", force.rms},
                       {"relative", force.relative},
+                      {"sensors_alone", force.sensors},
                       {"below", force.below > 0.0 ? nlohmann::json(force.below) : nlohmann::json()},
                       {"words", force.words},
                       {"dependences", nlohmann::json::array()}};

@@ -138,10 +138,10 @@ std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis
           ? ""
           : fmt::format(" (train {:.2f} to {:.2f})", finding.train_before, finding.train_after);
   return fmt::format(
-      "{}: {} at {}. With it the {} error falls from {:.2f} to {:.2f} times the floor{}{}; {} chosen in "
+      "{}: {} at {}. With it the {} error {} from {:.2f} to {:.2f} times the floor{}{}; {} chosen in "
       "{:.0f} % of the resamples.{}",
       diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at, after.role,
-      before.error, after.error, tried, train,
+      after.error <= before.error ? "falls" : "rises", before.error, after.error, tried, train,
       finding.together_with.empty() ? "it was" : "together with " + finding.together_with + " it was",
       100.0 * finding.selected_share,
       finding.open_in_train

@@ -142,7 +142,7 @@ class Unknowns {
 struct Part {
   std::array<double, kPoints> time{};  ///< since the part began, s
   std::array<State, kPoints> state;
-  std::array<ClosedLoop, kPoints> loop;
+  std::array<ControlledState, kPoints> loop;
   State end;
 };
 
@@ -168,8 +168,8 @@ struct Stride {
   Part flight, compression, rest;
   Gait gait;  ///< completed by what the unknowns say of it
   VectorXd gaps;
-  ClosedLoop first, last;  ///< just after touchdown, just before lift-off
-  double lift = 0.0;       ///< the toe's upward speed after lift-off, m/s
+  ControlledState first, last;  ///< just after touchdown, just before lift-off
+  double lift = 0.0;            ///< the toe's upward speed after lift-off, m/s
 };
 
 constexpr int kGaps = 27;
@@ -297,7 +297,7 @@ class Problem {
     const double weight = total_mass(u.constants) * u.constants.gravity;
     const auto beyond = [&](double share) { r[at++] = std::max(0.0, share) / kBeyond; };
     for (const Part* part : {&s.flight, &s.compression, &s.rest}) {
-      for (const ClosedLoop& loop : part->loop) {
+      for (const ControlledState& loop : part->loop) {
         for (int m = 0; m < 2; ++m) {
           beyond(std::abs(loop.torque[m]) / d_.torque[m] - 1.0);
         }

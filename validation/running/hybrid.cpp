@@ -42,8 +42,8 @@ double crossing(double step, const Value& value) {
 
 }  // namespace
 
-ClosedLoop closed_loop(Running& control, const State& state) {
-  ClosedLoop r;
+ControlledState closed_loop(Running& control, const State& state) {
+  ControlledState r;
   r.dynamics = dynamics(control.constants(), state);
   r.torque = control.torque(state, r.dynamics);
   const bool flies = control.phase() == Phase::flight;
@@ -92,7 +92,7 @@ State state_at(const Constants& c, const Section& section) {
   return state;
 }
 
-void HybridRun::watch(const ClosedLoop& r) {
+void HybridRun::watch(const ControlledState& r) {
   for (int i = 0; i < 2; ++i) {
     facts.most_torque[i] = std::max(facts.most_torque[i], std::abs(r.torque[i]));
   }
@@ -139,7 +139,7 @@ bool HybridRun::fly() {
 
 void HybridRun::lift_off(double begin, bool at_rest) {
   const Constants& c = control.constants();
-  const ClosedLoop last = closed_loop(control, state);
+  const ControlledState last = closed_loop(control, state);
   watch(last);
   facts.last_normal = last.force[1];
   facts.spring_at_rest = at_rest;
@@ -163,7 +163,7 @@ bool HybridRun::stand() {
   control.touch_down(before, state);
   const double begin = time, hip = 0.5 * (c.upper_length + c.lower_length);
   while (time - begin < kLongestPhase) {
-    const ClosedLoop now = closed_loop(control, state);
+    const ControlledState now = closed_loop(control, state);
     watch(now);
     const State next = stepped(step_);
     if (!next.q.allFinite() || next.q[kHipZ] - d.toe[1] < hip) {

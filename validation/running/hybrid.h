@@ -12,13 +12,13 @@
 namespace plumbline::validation {
 
 /// The closed loop in continuous time at one state: pinned toe in stance, spring on its stop in flight.
-struct ClosedLoop {
+struct ControlledState {
   monopod::State rate;         ///< q', q''
   monopod::Vector2 torque;     ///< of leg-angle and leg-shape motor, N m
   monopod::Vector2 force;      ///< of the ground on the toe, N; zero in flight
   monopod::Dynamics dynamics;  ///< at the state
 };
-ClosedLoop closed_loop(monopod::Running& control, const monopod::State& state);
+ControlledState closed_loop(monopod::Running& control, const monopod::State& state);
 
 /// One step of the classical method of Runge and Kutta.
 monopod::State runge_kutta(monopod::Running& control, const monopod::State& state, double step);
@@ -72,7 +72,7 @@ class HybridRun {
 
  private:
   monopod::State stepped(double step) { return runge_kutta(control, state, step); }
-  void watch(const ClosedLoop& r);
+  void watch(const ControlledState& r);
   void lift_off(double begin, bool at_rest);
 
   double step_;
