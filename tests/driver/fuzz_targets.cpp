@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "controllers/controller.h"
@@ -201,6 +202,18 @@ void FuzzTargets::run(std::uint64_t count) {
         break;
     }
   }
+}
+
+void FuzzTargets::run_only(const std::string& target, std::uint64_t count) {
+  using Target = void (FuzzTargets::*)();
+  const std::map<std::string, Target> targets = {{"packet", &FuzzTargets::packet},
+                                                 {"certificate", &FuzzTargets::certificate},
+                                                 {"body", &FuzzTargets::body},
+                                                 {"constants", &FuzzTargets::constants},
+                                                 {"supervisor", &FuzzTargets::supervisor}};
+  const auto found = targets.find(target);
+  if (found == targets.end()) throw std::invalid_argument(target + ": no target of that name");
+  for (std::uint64_t k = 0; k < count; ++k) (this->*found->second)();
 }
 
 }  // namespace plumbline::driver

@@ -22,6 +22,8 @@ class FuzzTargets {
 
   /// All of them by turns, so that `count` inputs are read in total.
   void run(std::uint64_t count);
+  /// `count` inputs of one of them, by its name. Throws std::invalid_argument for another name.
+  void run_only(const std::string& target, std::uint64_t count);
 
  private:
   double any_number();

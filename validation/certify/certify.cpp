@@ -44,10 +44,10 @@ contact::Terrain uneven(const contact::Terrain& flat, const RequiredTerrain& ter
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> height(-terrain.height, terrain.height);
   std::vector<contact::Platform> platforms;
-  // To either side of the start, as far as a hundred steps; the robot begins above the floor.
+  // To either side of the start, as far as a hundred steps.
   for (int side : {-1, 1}) {
     for (int k = 1; k <= 100; ++k) {
-      const double near = (k - 0.5) * terrain.length, far = (k + 0.5) * terrain.length;
+      const double near = terrain.level + (k - 1.0) * terrain.length, far = near + terrain.length;
       platforms.push_back({side > 0 ? near : -far, side > 0 ? far : -near, flat.floor() + height(random)});
     }
   }

@@ -158,11 +158,13 @@ void read_required(const YamlNode& node, Requirements& r) {
     r.wire->late = ranged(*wire, "late", "1", 0.0, 1.0);
   }
   if (const auto terrain = node.find("terrain")) {
-    terrain->allow_keys({"runs", "at_least", "length", "height"});
+    terrain->allow_keys({"runs", "at_least", "length", "height", "level"});
     r.terrain.emplace();
     static_cast<RequiredShare&>(*r.terrain) = read_share(*terrain);
     r.terrain->length = ranged(*terrain, "length", "m", 1e-3, 100.0);
     r.terrain->height = ranged(*terrain, "height", "m", 0.0, 1.0);
+    r.terrain->level =
+        terrain->has("level") ? ranged(*terrain, "level", "m", 0.0, 100.0) : 0.5 * r.terrain->length;
   }
   if (node.has("multiplier")) r.multiplier = ranged(node, "multiplier", "1", 0.0, 100.0);
   if (node.has("command_margin")) r.command_margin = ranged(node, "command_margin", "1", 0.0, 1.0);

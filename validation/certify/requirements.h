@@ -48,9 +48,11 @@ struct RequiredWire : RequiredShare {
   double late = 0.0;  ///< the command acts one sample later
 };
 
-/// Level steps in the ground, each so long, up or down by up to so much, drawn evenly.
+/// Level steps in the ground, each so long, up or down by up to so much, drawn evenly; level where the robot
+/// begins.
 struct RequiredTerrain : RequiredShare {
   double length = 1.0, height = 0.0;  ///< m
+  double level = 0.5;                 ///< m to either side of the start
 };
 
 struct Requirements {
