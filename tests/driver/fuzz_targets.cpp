@@ -7,7 +7,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "controllers/controller.h"
 #include "controllers/driver/certificate.h"
 #include "controllers/driver/packet.h"
 #include "controllers/driver/plan.h"
@@ -29,7 +28,7 @@ void one_line(const std::string& text) {
 
 }  // namespace
 
-FuzzTargets::FuzzTargets(std::uint64_t seed, const std::string& controller)
+FuzzTargets::FuzzTargets(std::uint64_t seed, const std::string& controller, const std::string& certificate)
     : random_(seed), controller_(controller) {
   text_ = signed_certificate(small_body(), new_key().private_pem);
   body_text_ = canonical_json(small_body());
@@ -39,6 +38,7 @@ FuzzTargets::FuzzTargets(std::uint64_t seed, const std::string& controller)
   packet_bytes_.resize(encode(packet, reinterpret_cast<std::uint8_t*>(packet_bytes_.data())));
   library_ = dlopen(controller.c_str(), RTLD_NOW | RTLD_LOCAL);
   hold(library_ != nullptr, controller + ": cannot be loaded");
+  if (!certificate.empty()) good_constants_ = plan_from(read_certificate(certificate).body).constants;
 }
 
 double FuzzTargets::any_number() {
@@ -126,11 +126,16 @@ void FuzzTargets::body() {
   }
 }
 
-void FuzzTargets::constants() {
-  const auto entry =
-      reinterpret_cast<decltype(&plumbline_controller)>(dlsym(library_, PLUMBLINE_CONTROLLER_SYMBOL));
-  const plumbline_controller_api& api = *entry();
-  std::vector<double> constants(api.constant_count), scales(api.input_count, 1e-3);
+std::vector<double> FuzzTargets::some_constants(const plumbline_controller_api& api) {
+  std::vector<double> constants(api.constant_count);
+  if (!good_constants_.empty() && random_() % 8 != 0) {
+    constants = good_constants_;
+    for (std::uint64_t k = 1 + random_() % 4; k > 0; --k) {
+      double& one = constants[random_() % constants.size()];
+      one = random_() % 2 == 0 ? any_number() : one * std::normal_distribution<double>(0.0, 2.0)(random_);
+    }
+    return constants;
+  }
   for (double& value : constants) value = any_number();
   if (random_() % 2 == 0) {  // within the ports' limits: then the controller itself must look
     for (std::size_t k = 0; k < constants.size(); ++k) {
@@ -140,6 +145,16 @@ void FuzzTargets::constants() {
       if (random_() % 2 == 0) constants[k] = std::round(constants[k]);
     }
   }
+  return constants;
+}
+
+void FuzzTargets::constants() {
+  const auto entry =
+      reinterpret_cast<decltype(&plumbline_controller)>(dlsym(library_, PLUMBLINE_CONTROLLER_SYMBOL));
+  const plumbline_controller_api& api = *entry();
+  hold(good_constants_.empty() || good_constants_.size() == api.constant_count,
+       "the certificate is of another controller");
+  const std::vector<double> constants = some_constants(api), scales(api.input_count, 1e-3);
   char message[256] = "";
   const plumbline_setup setup = {1e-3, constants.data(), scales.data()};
   bool within = true;
@@ -152,6 +167,7 @@ void FuzzTargets::constants() {
     one_line(message);
     return;
   }
+  ++created_;
   std::vector<double> inputs(api.input_count), outputs(api.output_count), log(api.log_count);
   for (int step = 0; step < 8; ++step) {
     for (std::size_t k = 0; k < inputs.size(); ++k) {
@@ -160,6 +176,10 @@ void FuzzTargets::constants() {
                       : std::round(std::normal_distribution<double>(0, 1e4)(random_));
     }
     if (api.step(self, inputs.data(), outputs.data(), log.data()) != 0) break;
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      hold(outputs[k] >= api.outputs[k].lower && outputs[k] <= api.outputs[k].upper,
+           std::string(api.outputs[k].name) + " beyond the controller's own limits");
+    }
   }
   api.destroy(self);
 }

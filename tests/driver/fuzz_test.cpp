@@ -6,7 +6,11 @@
 namespace plumbline::driver {
 namespace {
 
-TEST(DriverFuzz, ReadsAnything) { EXPECT_NO_THROW(FuzzTargets(43, FUZZED_CONTROLLER).run(20000)); }
+TEST(DriverFuzz, ReadsAnything) {
+  FuzzTargets targets(43, FUZZED_CONTROLLER, PLUMBLINE_ROOT "/robots/mabel/certify/hopping.cert");
+  EXPECT_NO_THROW(targets.run(20000));
+  EXPECT_GT(targets.created(), 200U);
+}
 
 }  // namespace
 }  // namespace plumbline::driver
