@@ -28,10 +28,16 @@ model::EffectUse use_of(const std::string& law, const std::string& at) {
 }
 
 TEST(Family, IsOfOnePlace) {
-  EXPECT_TRUE(are_of_one_family(use_of("coulomb", "mLA"), use_of("stribeck", "mLA")));
-  EXPECT_FALSE(are_of_one_family(use_of("coulomb", "mLA"), use_of("stribeck", "mLS")));
-  EXPECT_FALSE(are_of_one_family(use_of("coulomb", "mLA"), use_of("preload", "mLA")));
-  EXPECT_FALSE(are_of_one_family(use_of("boom", "base"), use_of("boom", "base"))) << "a family needs two";
+  const TiedPlaces places(bench());
+  const auto are_one = [&](const char* law, const char* at, const char* other, const char* there) {
+    return are_of_one_family(use_of(law, at), use_of(other, there), places);
+  };
+  EXPECT_TRUE(are_one("coulomb", "mLA", "stribeck", "mLA"));
+  EXPECT_TRUE(are_one("coulomb", "mLA", "hysteresis", "leg_angle"))
+      << "the motor turns it through a rigid ratio";
+  EXPECT_FALSE(are_one("coulomb", "mLA", "stribeck", "mLS"));
+  EXPECT_FALSE(are_one("coulomb", "mLA", "preload", "mLA"));
+  EXPECT_FALSE(are_one("boom", "base", "boom", "base")) << "a family needs two";
 }
 
 // Friction of both kinds at both motors: one after the other the search would name compromises.

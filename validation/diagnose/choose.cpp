@@ -29,11 +29,12 @@ std::pair<int, int> complexity(const Refit& refit) {
 
 /// Single effects of one family at one place. That something of the family is there may be sure where the
 /// votes are split among its members, which are then each other's rivals.
-bool is_of_family(const Refit& one, const Refit& other) {
+bool is_of_family(const Refit& one, const Refit& other, const TiedPlaces& places) {
   const auto effect = [](const Refit& refit) -> const model::EffectUse& {
     return refit.extended.model.effects[static_cast<std::size_t>(refit.added.front())];
   };
-  return one.added.size() == 1 && other.added.size() == 1 && are_of_one_family(effect(one), effect(other));
+  return one.added.size() == 1 && other.added.size() == 1 &&
+         are_of_one_family(effect(one), effect(other), places);
 }
 
 /// Far above the floor the constants of a law make up for what else is missing, and a law that does nearly as
@@ -45,7 +46,7 @@ constexpr double kNearlyFar = 1.25;
 /// longer.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
-                                   const DiagnoseOptions& options) {
+                                   const TiedPlaces& places, const DiagnoseOptions& options) {
   std::vector<std::size_t> near;
   if (contenders.empty()) {
     return near;
@@ -53,7 +54,7 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
   const Refit& best = refits[contenders.front()];
   const bool is_far = !is_below(options.far, best.estimate, data);
   for (const std::size_t i : contenders) {
-    const bool is_simpler = is_far && refits[i].own < best.own && is_of_family(refits[i], best);
+    const bool is_simpler = is_far && refits[i].own < best.own && is_of_family(refits[i], best, places);
     if (together(refits[i]) < (is_simpler ? kNearlyFar : 1.0 + options.simpler) * together(best)) {
       near.push_back(i);
     }
@@ -64,14 +65,15 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
 /// The refits that are left when those with a flaw are out: a law that cannot be true takes no share from one
 /// that can. Only those that would win a share or the name are looked at, until none of them has a flaw.
 std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Refit>& refits,
-                                        const Data& data, const DiagnoseOptions& options, Choice& choice) {
+                                        const Data& data, const TiedPlaces& places,
+                                        const DiagnoseOptions& options, Choice& choice) {
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
   for (bool all_seen = false; !all_seen;) {
     all_seen = true;
     choice.shares = selected_shares(stage, refits, contenders, data, options);
-    std::vector<std::size_t> asked = near_best(refits, contenders, data, options);
+    std::vector<std::size_t> asked = near_best(refits, contenders, data, places, options);
     for (const std::size_t i : contenders) {
       if (choice.shares[i] > kFair) {
         asked.push_back(i);
@@ -185,17 +187,18 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   if (refits.empty()) {
     return choice;
   }
+  const TiedPlaces places(stage.model);
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
   const std::vector<std::size_t> contenders = without_repeated_numbers(
-      stage, refits, without_flawed(stage, refits, data, options, choice), data, options, choice);
+      stage, refits, without_flawed(stage, refits, data, places, options, choice), data, options, choice);
   if (contenders.empty()) {
     return choice;
   }
-  std::vector<std::size_t> near = near_best(refits, contenders, data, options);
+  std::vector<std::size_t> near = near_best(refits, contenders, data, places, options);
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
-    if (is_near || is_of_family(refits[i], refits[contenders.front()])) {
+    if (is_near || is_of_family(refits[i], refits[contenders.front()], places)) {
       choice.share += choice.shares[i];
     }
   }

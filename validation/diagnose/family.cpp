@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include "simulator/model/plant.h"
 
 namespace plumbline::validation {
 namespace {
@@ -37,8 +40,36 @@ int family_of(const effects::Law& law) {
 
 bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
 
-bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other) {
-  return one.at == other.at && family_of(*one.law) >= 0 && family_of(*one.law) == family_of(*other.law);
+TiedPlaces::TiedPlaces(const model::Model& model) {
+  const model::Plant plant(model, {});
+  const auto add = [&](const std::string& name) {
+    Eigen::VectorXd direction(plant.positions());
+    for (Eigen::Index i = 0; i < direction.size(); ++i) {
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+      x[plant.positions() + i] = 1.0;
+      direction[i] = plant.velocity_of(name, x.data());
+    }
+    directions_.emplace(name, direction.normalized());
+  };
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    add(coordinate.name);
+  }
+  for (const model::Motor& motor : model.motors) {
+    add(motor.name);
+  }
+}
+
+bool TiedPlaces::are_one(const std::string& a, const std::string& b) const {
+  constexpr double kParallel = 1.0 - 1e-9;
+  const auto one = directions_.find(a);
+  const auto other = directions_.find(b);
+  return a == b || (one != directions_.end() && other != directions_.end() &&
+                    std::abs(one->second.dot(other->second)) > kParallel);
+}
+
+bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other, const TiedPlaces& places) {
+  return places.are_one(one.at, other.at) && family_of(*one.law) >= 0 &&
+         family_of(*one.law) == family_of(*other.law);
 }
 
 }  // namespace plumbline::validation

@@ -20,7 +20,7 @@ constexpr std::size_t kPairs = 6;        // that are returned
 /// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
 /// would be stiffer than anything that the samples could show, and cost as much as all others together.
 Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 40.0;  // in a sample
+  constexpr double kLeast = 15.0;  // in a sample
   constexpr double kTimesTheStage = 3.0;
   constexpr double kEvaluationsOfStep = 3.0;
   PredictorPool pool(stage.model, data);
@@ -58,7 +58,8 @@ bool is_material(const Refit& refit, const Stage& stage, const DiagnoseOptions& 
   return refit.square() < kept * kept * stage.estimate.predicted.scores.square();
 }
 
-/// After a single refit whatever helps it most.
+/// After a single refit whatever helps it most, where it promises to come near the floor: a pair is an answer
+/// only there.
 void add_followers(const Tried& tried, const Refit& first, const effects::Catalogue& catalogue,
                    const Data& data, const DiagnoseOptions& options, const Progress& progress,
                    std::vector<Pair>& pairs) {
@@ -68,7 +69,12 @@ void add_followers(const Tried& tried, const Refit& first, const effects::Catalo
   };
   DiagnoseOptions fewer = options;
   fewer.refits = kSeconds;
-  const Tried next = try_candidates(after(first), catalogue, {candidate.label()}, data, fewer, named);
+  Tried next = screen_candidates(after(first), catalogue, {candidate.label()}, data, named);
+  const double near = 2.0 * options.far * options.far;  // of train and held-out together
+  if (next.hypotheses.empty() || next.hypotheses.front().promised() > near) {
+    return;
+  }
+  refit_candidates(data, fewer, named, next);
   for (const Refit& second : next.refits) {
     Pair pair{candidate, next.candidates[static_cast<std::size_t>(second.candidate)], second};
     pair.refit.added.insert(pair.refit.added.begin(), first.added.begin(), first.added.end());

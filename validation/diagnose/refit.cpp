@@ -84,6 +84,66 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   return *best;
 }
 
+/// Every third window of either role, and what the stage, the hypothesis and a refit have for them.
+class EveryThird {
+ public:
+  explicit EveryThird(const Data& data) : data_(data) {
+    data_.windows.clear();
+    for (const Role role : {Role::train, Role::held_out}) {
+      const std::vector<int> all = data.windows_of(role);
+      for (std::size_t i = 0; i < all.size(); i += 3) {
+        kept_.push_back(static_cast<std::size_t>(all[i]));
+        data_.windows.push_back(data.windows[kept_.back()]);
+      }
+    }
+  }
+  const Data& data() const { return data_; }
+  Stage of(Stage stage) const {
+    Estimate& estimate = stage.estimate;
+    estimate.x0 = some(estimate.x0);
+    estimate.square = some(estimate.square);
+    estimate.scores = score(data_, estimate.square);
+    estimate.predicted.square = some(estimate.predicted.square);
+    estimate.predicted.scores = score(data_, estimate.predicted.square);
+    return stage;
+  }
+  Hypothesis of(Hypothesis hypothesis) const {
+    hypothesis.x0 = some(hypothesis.x0);
+    return hypothesis;
+  }
+  double square_of(const Refit& refit) const {
+    return score(data_, some(refit.estimate.predicted.square)).square();
+  }
+
+ private:
+  std::vector<Eigen::VectorXd> some(const std::vector<Eigen::VectorXd>& all) const {
+    std::vector<Eigen::VectorXd> few;
+    for (const std::size_t w : kept_) {
+      if (!all.empty()) {
+        few.push_back(all[w]);
+      }
+    }
+    return few;
+  }
+  Data data_;
+  std::vector<std::size_t> kept_;  // indices of the windows
+};
+
+/// A law with corners takes many times the work of all others. Above the floor it is refitted on every third
+/// window first: is it better there than the best so far?
+bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                       const Data& data, const Effort& effort, const Refit& best) {
+  const EveryThird some(data);
+  try {
+    return refit_one(some.of(stage), candidate, some.of(hypothesis), some.data(), effort).square() <
+           some.square_of(best);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 void continue_refit(Refit& refit, const Data& data, int iterations) {
   PredictorPool pool(refit.extended.model, data);
   refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
@@ -269,6 +329,16 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   const int most_refits = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
   std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
   const bool is_far = !is_below(options.hopeless, stage.estimate, data);
+  const bool is_above = !straight && !is_below(options.far, stage.estimate, data);
+  const auto has_corners = [&](const Hypothesis& one) {
+    return jumps(
+        extend(stage, candidates[static_cast<std::size_t>(one.candidate)], one.start).model.effects.back());
+  };
+  const std::vector<const Hypothesis*> by_promise = chosen;
+  if (is_above) {
+    std::stable_partition(chosen.begin(), chosen.end(),
+                          [&](const Hypothesis* one) { return !has_corners(*one); });
+  }
   const std::size_t cheap = is_far ? dear_last(chosen, candidates, stage, data) : chosen.size();
   // What a law with corners promises decides whether its many minima are worth a search: one of the first,
   // and next to the floor or most of the error.
@@ -276,10 +346,22 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   constexpr double kLeft = 0.25;
   const double worth = std::max(options.far * options.far, kLeft * stage.estimate.predicted.scores.square());
   std::vector<Refit> refits;
+  const auto is_tried = [&](const Hypothesis& hypothesis) {
+    return std::any_of(refits.begin(), refits.end(),
+                       [&](const Refit& one) { return one.candidate == hypothesis.candidate; });
+  };
   const auto add = [&](const Hypothesis& hypothesis, double done, bool thorough = true) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
     progress("refitting " + candidate.label(), done);
+    const bool is_asked_first = is_above && !refits.empty() && has_corners(hypothesis);
     try {
+      if (is_asked_first &&
+          !is_better_on_some(stage, candidate, hypothesis, data, {4, thorough}, refits.front())) {
+        if (failed != nullptr && !is_tried(hypothesis)) {
+          failed->push_back({hypothesis.candidate, "on every third window no better than the best so far"});
+        }
+        return;
+      }
       refits.push_back(refit_one(stage, candidate, hypothesis, data, {4, thorough}));
     } catch (const Stopped&) {
       throw;
@@ -293,10 +375,6 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     if (refits.size() == 2) {
       finish_leader(stage, refits, candidates, data, progress);
     }
-  };
-  const auto is_tried = [&](const Hypothesis& hypothesis) {
-    return std::any_of(refits.begin(), refits.end(),
-                       [&](const Refit& one) { return one.candidate == hypothesis.candidate; });
   };
   constexpr double kStillBetter = 0.5;
   constexpr double kMuch = 0.7;  // of the stage's squared error
@@ -318,12 +396,11 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
   }
   // The long way, by the windows' beginnings, where the promise is still far better than what was reached.
-  for (std::size_t i = 0; i < std::min(kThorough, chosen.size()); ++i) {
-    const bool is_open = refits.empty() || chosen[i]->promised() < kStillBetter * refits.front().square();
-    if (is_open && chosen[i]->promised() < worth && is_tried(*chosen[i]) &&
-        jumps(extend(stage, candidates[static_cast<std::size_t>(chosen[i]->candidate)], chosen[i]->start)
-                  .model.effects.back())) {
-      add(*chosen[i], 0.9, true);
+  for (std::size_t i = 0; i < std::min(kThorough, by_promise.size()); ++i) {
+    const Hypothesis& one = *by_promise[i];
+    const bool is_open = refits.empty() || one.promised() < kStillBetter * refits.front().square();
+    if (is_open && one.promised() < worth && (!is_far || options.dear) && has_corners(one)) {
+      add(one, 0.9, true);
     }
   }
   keep_best_of_each(refits);

@@ -192,7 +192,8 @@ class Search {
       slow = at_end || cost() < (1.0 - options_.tolerance) * before ? 0 : slow + 1;
       at_end = at_end || slow == kSlow;
     }
-    states_.settle_lost(typical(reduced_), kRoughly, true, Point(here_), here_, reduced_);
+    // A search that was cut short is gone on with, or not worth the pains.
+    states_.settle_lost(typical(reduced_), kRoughly, at_end, Point(here_), here_, reduced_);
     keep_marks(reduced_);
     states_.take_last_step(here_, reduced_);
     Estimate result = estimate_at(data_, here_, reduced_, parameters_, units_);
@@ -247,12 +248,13 @@ class Search {
       states_.shorten(here_, reduced_, there, next);
       keep_marks(next);
       states_.settle(curved(next), {}, there, next);
-      states_.settle_lost(promised(there), kRoughly, false, here_, there, next);
       keep_marks(next);
-      if (!is_finite(next)) {
-        return std::numeric_limits<double>::infinity();
+      double times = times_here(there, next);
+      if (!(times < 1.0)) {  // a window that was lost on the way may be all that is wrong with the step
+        states_.settle_lost(promised(there), kRoughly, false, here_, there, next);
+        keep_marks(next);
+        times = times_here(there, next);
       }
-      const double times = cost_of(there, next) / (cost() * (1.0 + options_.tolerance));
       if (times < 1.0) {
         here_ = std::move(there);
         reduced_ = std::move(next);
@@ -263,6 +265,12 @@ class Search {
     } catch (const std::runtime_error&) {
       return std::numeric_limits<double>::infinity();  // the integrator gave up there: a shorter step
     }
+  }
+
+  /// The cost of a point in units of the present one with its tolerance; infinite where it is not finite.
+  double times_here(const Point& there, const std::vector<Reduced>& next) const {
+    return is_finite(next) ? cost_of(there, next) / (cost() * (1.0 + options_.tolerance))
+                           : std::numeric_limits<double>::infinity();
   }
 
   /// A straight line led these windows far astray: from now on their states' steps are damped, and their
