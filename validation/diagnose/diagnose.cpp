@@ -1,5 +1,6 @@
 #include "validation/diagnose/diagnose.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "simulator/trace/error.h"
@@ -39,6 +40,15 @@ Followed diagnose_windows(const model::Model& model, const effects::Catalogue& c
              : diagnose_by_segments(model, catalogue, data, followed, options, progress, diagnosis);
 }
 
+/// Fitted values of what is named.
+std::size_t named_values(const Diagnosis& diagnosis) {
+  const Stage& stage = diagnosis.final_stage;
+  const auto first = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size());
+  return static_cast<std::size_t>(
+      std::count_if(stage.parameters.begin(), stage.parameters.end(),
+                    [&](const FreeParameter& one) { return one.id.effect >= first; }));
+}
+
 /// What is said of all windows, where candidates were tried on some.
 void finish(const Data& data, const Followed& tried, const Data& some, const DiagnoseOptions& options,
             const Progress& progress, Diagnosis& diagnosis) {
@@ -57,7 +67,10 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
   }
   const bool is_answer =
       !diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all);
-  const bool is_held = is_answer || (!diagnosis.accepted.empty() && !all.has_segments());
+  // Far above the floor each of the refits takes long, and says little of many values.
+  constexpr std::size_t kFew = 2;
+  const bool is_held =
+      is_answer || (!diagnosis.accepted.empty() && !all.has_segments() && named_values(diagnosis) <= kFew);
   if (is_answer) {
     settle_values(all, progress, diagnosis);
   }

@@ -62,6 +62,7 @@ struct Finding : Named {
   double train_before = 0.0, train_after = 0.0;
   double selected_share = 0.0;
   std::string equation;
+  std::string in_place_of;    ///< "law@place" of an earlier finding whose place it took; usually empty
   std::string together_with;  ///< "law@place" of the effect that was found with it at once; usually empty
   /// The train trials' best value is no effect at all, though they leave it open: the values are then those
   /// that serve the held-out trials, too, and their error is no prediction any more.

@@ -40,6 +40,11 @@ bool is_nothing(const Stage& stage, std::size_t effect) {
   return use.law->is_null(values.data());
 }
 
+bool have_same_states(const Estimate& one, const Estimate& other) {
+  return std::equal(one.x0.begin(), one.x0.end(), other.x0.begin(), other.x0.end(),
+                    [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.size() == b.size(); });
+}
+
 /// Each finding's errors are those of the rung before its own and of its own.
 void set_errors_of_rungs(Diagnosis& diagnosis) {
   for (Finding& finding : diagnosis.accepted) {
@@ -79,14 +84,25 @@ void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnos
 
 void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
   const double length = diagnosis.ladder.back().length;
+  const Estimate* before = nullptr;
   for (Rung& rung : diagnosis.ladder) {
     if (rung.length < length) {
       continue;
     }
     progress("all windows for " + rung.name, 0.9);
     PredictorPool pool(rung.stage.model, all);
-    rung.stage.estimate = gauss_newton(pool, rung.stage.parameters, rung.stage.estimate.theta, {},
-                                       {12, 1e-5});  // what the data hardly tell moves last
+    const EstimateOptions options{12, 1e-5};  // what the data hardly tell moves last
+    const Eigen::VectorXd theta = rung.stage.estimate.theta;
+    Estimate found = gauss_newton(pool, rung.stage.parameters, theta, {}, options);
+    // What the rung before explains, this one does: else windows have ended in a poorer minimum.
+    if (before != nullptr && found.scores.train > before->scores.train && have_same_states(*before, found)) {
+      Estimate other = gauss_newton(pool, rung.stage.parameters, theta, before->x0, options);
+      if (other.cost < found.cost) {
+        found = std::move(other);
+      }
+    }
+    rung.stage.estimate = std::move(found);
+    before = &rung.stage.estimate;
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;
   set_errors_of_rungs(diagnosis);
@@ -95,17 +111,34 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
                       Diagnosis& diagnosis) {
   std::vector<Finding>& accepted = diagnosis.accepted;
-  for (std::size_t i = 0; accepted.size() > 1 && i < accepted.size();) {
-    Stage& stage = diagnosis.final_stage;
-    const std::string name = accepted[i].label();
-    progress("is " + name + " still needed", 0.9);
+  const auto without = [&](std::size_t i) {
+    const Stage& stage = diagnosis.final_stage;
+    progress("is " + accepted[i].label() + " still needed", 0.9);
     const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + i);
-    const Stage without = unless_lost(without_effect(stage, effect), all);
-    const double rise = judged(without.estimate, all) / judged(stage.estimate, all) - 1.0;
+    return unless_lost(without_effect(stage, effect), all);
+  };
+  const auto drop = [&](std::size_t i, const Stage& stage) {
+    diagnosis.ladder.push_back({"- " + accepted[i].label(), stage, diagnosis.ladder.back().length});
+    accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
+    diagnosis.final_stage = stage;
+  };
+  // What helped on the windows on which it was tried, and harms on all, the last first.
+  for (std::size_t i = accepted.size(); accepted.size() > 1 && i-- > 0;) {
+    const Stage stage = without(i);
+    if (judged(stage.estimate, all) < (1.0 - options.simpler) * judged(diagnosis.final_stage.estimate, all)) {
+      drop(i, stage);
+    }
+  }
+  // Against what all of them reach: several small rises would add up.
+  const double judged_with_all = judged(diagnosis.final_stage.estimate, all);
+  const double train_with_all = diagnosis.final_stage.estimate.scores.train;
+  for (std::size_t i = 0; accepted.size() > 1 && i < accepted.size();) {
+    const Stage stage = without(i);
+    const double rise = std::max(judged(stage.estimate, all) / judged_with_all,
+                                 stage.estimate.scores.train / train_with_all) -
+                        1.0;
     if (rise < options.material) {
-      diagnosis.ladder.push_back({"- " + name, without, diagnosis.ladder.back().length});
-      accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
-      stage = without;
+      drop(i, stage);
     } else {
       ++i;
     }

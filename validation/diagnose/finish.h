@@ -13,7 +13,8 @@ void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 /// that an answer has one number for one thing; not where a rung is of segments.
 void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnosis);
 
-/// A guess that the others make superfluous is dropped again: an early one, or a rival that took its place.
+/// A guess that the others make superfluous is dropped again: an early one, or a rival that took its place;
+/// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
                       Diagnosis& diagnosis);
 

@@ -91,6 +91,7 @@ void replace(std::size_t index, const InPlace& winner, const Stage& without, dou
   const Finding old = diagnosis.accepted[index];
   Finding finding = finding_of(winner.candidate);
   finding.selected_share = share;
+  finding.in_place_of = old.label();
   if (1.0 - share > kFair) {
     finding.rivals.push_back({{old.effect, old.at},
                               correlation(without, after(winner.refit), diagnosis.final_stage, data),

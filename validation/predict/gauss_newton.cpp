@@ -275,12 +275,20 @@ class Search {
 
   /// A straight line led these windows far astray: from now on their states' steps are damped, and their
   /// squared residuals count as they are. A damping of the parameters alone would refuse every step for them.
+  /// Where more than a quarter are, it is the parameters' step that is too long.
   void mark_curved(std::vector<Reduced>& next) {
     constexpr double kAstray = 4.0;
+    std::vector<std::size_t> astray;
     for (std::size_t w = 0; w < next.size(); ++w) {
-      is_curved_[w] = is_curved_[w] || (!(next[w].raw_sse <= kAstray * reduced_[w].raw_sse) &&
-                                        is_above_floor(data_, static_cast<int>(w), next[w].raw_sse));
-      reduced_[w].curved = is_curved_[w];
+      if (!is_curved_[w] && !(next[w].raw_sse <= kAstray * reduced_[w].raw_sse) &&
+          is_above_floor(data_, static_cast<int>(w), next[w].raw_sse)) {
+        astray.push_back(w);
+      }
+    }
+    if (astray.size() <= most_lost(next.size())) {
+      for (const std::size_t w : astray) {
+        is_curved_[w] = reduced_[w].curved = true;
+      }
     }
     keep_marks(next);
   }

@@ -122,6 +122,17 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
   return "";
 }
 
+namespace {
+
+/// " (train 9.53, with the other 10.67)", where another role counts.
+std::string in_place_train(const Finding& finding, const std::string& role) {
+  return role == "train" ? ""
+                         : fmt::format(" (train {:.2f}, with the other {:.2f})", finding.train_after,
+                                       finding.train_before);
+}
+
+}  // namespace
+
 std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis) {
   constexpr double kAsGood = 1.05;  // two numbers nearer than that are one
   const Judged before = judged(finding.train_before, finding.held_out_before);
@@ -137,6 +148,15 @@ std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis
       after.role == "train" || !tried.empty()
           ? ""
           : fmt::format(" (train {:.2f} to {:.2f})", finding.train_before, finding.train_after);
+  if (!finding.in_place_of.empty()) {
+    return fmt::format(
+        "{}: {} at {}, in place of {}. With it the {} error is {:.2f} times the floor, with the other "
+        "{:.2f}{}{}; it was "
+        "chosen in {:.0f} % of the resamples.",
+        diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at,
+        finding.in_place_of, after.role, after.error, before.error, tried,
+        in_place_train(finding, after.role), 100.0 * finding.selected_share);
+  }
   return fmt::format(
       "{}: {} at {}. With it the {} error {} from {:.2f} to {:.2f} times the floor{}{}; {} chosen in "
       "{:.0f} % of the resamples.{}",
