@@ -355,6 +355,10 @@ std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, co
       one.lower = std::max(one.lower, scales.center - kReach * scales.position);
       one.upper = std::min(one.upper, scales.center + kReach * scales.position);
     }
+    // A drive that stretches under its usual force by more than it moves transmits nothing any more.
+    if (one.scale == effects::Scale::reciprocal) {
+      one.lower = std::max(one.lower, use.law->typical(scales)[static_cast<std::size_t>(one.id.parameter)]);
+    }
   }
   return free;
 }

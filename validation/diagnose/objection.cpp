@@ -63,7 +63,7 @@ double disagreement(const Refit& refit, int effect, const Data& data) {
 
 /// Mean square of a refit (Refit::square) with one parameter held at a value and all others fitted anew.
 double square_with(double value, std::size_t parameter, const Refit& refit, const Data& data) {
-  constexpr int kIterations = 16;
+  constexpr int kIterations = 8;
   std::vector<FreeParameter> others = refit.extended.parameters;
   Eigen::VectorXd theta = refit.estimate.predicted.theta;
   theta[static_cast<Eigen::Index>(parameter)] = value;
@@ -127,12 +127,17 @@ std::string undecided(const Refit& refit, const Data& data, const DiagnoseOption
   return "";
 }
 
-/// A lone parameter of an added effect that is on its bound; empty when there is none.
+/// A parameter of an added effect that is on its bound, if it is the only one or the stiffness of a drive;
+/// empty when there is none.
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {
     const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
-    if (own.parameters.size() == 1 && on_bound(own.parameters.front(), own.theta[0])) {
-      return own.parameters.front().label;
+    for (std::size_t p = 0; p < own.parameters.size(); ++p) {
+      const FreeParameter& one = own.parameters[p];
+      if ((own.parameters.size() == 1 || one.scale == effects::Scale::reciprocal) &&
+          on_bound(one, own.theta[static_cast<Eigen::Index>(p)])) {
+        return one.label;
+      }
     }
   }
   return "";
