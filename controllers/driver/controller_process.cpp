@@ -53,8 +53,8 @@ ControllerProcess::ControllerProcess(const std::string& program, const Plan& pla
                                      const std::string& library_bytes, const Schedule& schedule)
     : program_(program), plan_(plan), schedule_(schedule) {
   if (plan.inputs.size() > Mailbox::most || plan.outputs.size() > Mailbox::most ||
-      plan.log.size() > Mailbox::most || plan.constants.size() > Mailbox::most) {
-    throw DriverError("the controller has more than 128 ports of one kind");
+      plan.log.size() > Mailbox::most || plan.constants.size() > Mailbox::most_constants) {
+    throw DriverError("the controller has more than 128 ports of one kind, or more than 1024 constants");
   }
   // A controller that ends interrupts the wait for its answer.
   struct sigaction action {};

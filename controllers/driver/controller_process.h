@@ -17,6 +17,7 @@ namespace plumbline::driver {
 /// the answer has the same number.
 struct Mailbox {
   static constexpr std::size_t most = Packet::most_values;
+  static constexpr std::size_t most_constants = 1024;
   enum Task : std::uint32_t { step, reset, end };
   std::atomic<std::uint32_t> request, answer;  // futexes
   std::uint32_t task;
@@ -25,8 +26,8 @@ struct Mailbox {
   double inputs[most], outputs[most], log[most];
   // Set before the first answer, from the library and by the driver.
   std::uint32_t input_count, output_count, log_count, constant_count;
-  double period, constants[most], scales[most];
-  char names[4 * most][64];  // wanted: inputs, outputs, log, constants
+  double period, constants[most_constants], scales[most];
+  char names[3 * most + most_constants][64];  // wanted: inputs, outputs, log, constants
   char name[64], version[64];
   char message[256];
 };

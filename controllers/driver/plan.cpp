@@ -9,6 +9,7 @@ namespace plumbline::driver {
 namespace {
 
 constexpr std::size_t kMostPorts = 128;
+constexpr std::size_t kMostConstants = 1024;  // a gait's polynomials are many
 
 /// One object of the body, and where it stands.
 class Part {
@@ -61,9 +62,11 @@ class Part {
     return static_cast<int>(value);
   }
   template <typename Each>
-  void list(const std::string& key, Each each) const {
+  void list(const std::string& key, Each each, std::size_t most = kMostPorts) const {
     const Json& value = at(key);
-    if (!value.is_array() || value.array().size() > kMostPorts) fail(key, "expected a list of at most 128");
+    if (!value.is_array() || value.array().size() > most) {
+      fail(key, "expected a list of at most " + std::to_string(most));
+    }
     for (std::size_t k = 0; k < value.array().size(); ++k) {
       const Part part(value.array()[k], where_ + "." + key + "[" + std::to_string(k) + "]");
       each(part);
@@ -153,12 +156,15 @@ void read_controller(const Part& body, Plan& plan) {
   plan.library_sha256 = part.text("sha256");
   plan.controller = part.text("name");
   plan.controller_version = part.text("version");
-  part.list("constants", [&](const Part& one) {
-    plan.constant_names.push_back(one.text("name"));
-    const Json& value = one.at("value");
-    if (!value.is_number()) one.fail("value", "expected a number");
-    plan.constants.push_back(value.number());
-  });
+  part.list(
+      "constants",
+      [&](const Part& one) {
+        plan.constant_names.push_back(one.text("name"));
+        const Json& value = one.at("value");
+        if (!value.is_number()) one.fail("value", "expected a number");
+        plan.constants.push_back(value.number());
+      },
+      kMostConstants);
   part.list("log", [&](const Part& one) { plan.log.push_back(one.text("name")); });
   part.nothing_else();
 }
