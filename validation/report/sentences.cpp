@@ -144,15 +144,21 @@ std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis
     tried = fmt::format(" ({:.2f} on the windows on which it was tried)", after.error);
     after = whole;
   }
-  const std::string train =
-      after.role == "train" || !tried.empty()
-          ? ""
-          : fmt::format(" (train {:.2f} to {:.2f})", finding.train_before, finding.train_after);
+  // Where another one was dropped, the last one's error is that of the answer: the same model may be fitted
+  // better.
+  double train_after = finding.train_after;
+  const bool is_dropped = !diagnosis.ladder.empty() && diagnosis.ladder.back().name.rfind("- ", 0) == 0;
+  if (is_last && is_dropped && whole.role == after.role && whole.error < after.error) {
+    after = whole;
+    train_after = diagnosis.ladder.back().train();
+  }
+  const std::string train = after.role == "train" || !tried.empty()
+                                ? ""
+                                : fmt::format(" (train {:.2f} to {:.2f})", finding.train_before, train_after);
   if (!finding.in_place_of.empty()) {
     return fmt::format(
         "{}: {} at {}, in place of {}. With it the {} error is {:.2f} times the floor, with the other "
-        "{:.2f}{}{}; it was "
-        "chosen in {:.0f} % of the resamples.",
+        "{:.2f}{}{}; it was chosen in {:.0f} % of the resamples.",
         diagnosis.verdict == Verdict::missing ? "Missing" : "A part", finding.effect, finding.at,
         finding.in_place_of, after.role, after.error, before.error, tried,
         in_place_train(finding, after.role), 100.0 * finding.selected_share);
