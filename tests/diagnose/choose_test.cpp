@@ -11,6 +11,16 @@
 namespace plumbline::validation {
 namespace {
 
+/// The window's squares times one of the factors in turn.
+void set_squares(const std::vector<Eigen::VectorXd>& squares, const std::vector<double>& factors,
+                 const Data& data, Refit& refit) {
+  Prediction& predicted = refit.estimate.predicted;
+  for (std::size_t w = 0; w < squares.size(); ++w) {
+    predicted.square[w] = factors[w % factors.size()] * squares[w];
+  }
+  predicted.scores = score(data, predicted.square);
+}
+
 /// Coulomb friction is hidden, and it and viscous friction are tried.
 class Choose : public testing::Test {
  protected:
@@ -18,6 +28,22 @@ class Choose : public testing::Test {
   const DiagnoseOptions options_{};
   Tried tried_ = try_candidates(as_given(bench(), data_), some_laws({"coulomb", "viscous"}), {}, data_,
                                 options_, silent);
+
+  /// Which of the two is named where Coulomb's leaves an error of `level` floors, and viscous friction, with
+  /// a parameter less, so many times its square.
+  int named_at(double level, double times) {
+    tried_.refits.resize(2);
+    Refit& coulomb = tried_.refits[0];
+    Refit& viscous = tried_.refits[1];
+    viscous.own = 0;
+    set_squares(squares_, {level * level}, data_, coulomb);
+    set_squares(squares_, {times * level * level}, data_, viscous);
+    coulomb.estimate.scores = coulomb.estimate.predicted.scores;
+    return choose(tried_.stage, tried_.refits, data_, options_).named;
+  }
+
+ private:
+  const std::vector<Eigen::VectorXd> squares_ = tried_.refits.front().estimate.predicted.square;
 };
 
 // The hidden law itself is made impossible: the next best must not lose the resamples that it would have won.
@@ -46,16 +72,6 @@ TEST_F(Choose, AFlawedRefitTakesNoShareFromTheOthers) {
   EXPECT_NE(after.named, 0);
 }
 
-/// The window's squares times one of the factors in turn.
-void set_squares(const std::vector<Eigen::VectorXd>& squares, const std::vector<double>& factors,
-                 const Data& data, Refit& refit) {
-  Prediction& predicted = refit.estimate.predicted;
-  for (std::size_t w = 0; w < squares.size(); ++w) {
-    predicted.square[w] = factors[w % factors.size()] * squares[w];
-  }
-  predicted.scores = score(data, predicted.square);
-}
-
 // Viscous friction takes fewer constants for granted than Coulomb's: it is named where it is nearly as good
 // by chance, not where it is a little worse in every window.
 TEST_F(Choose, FewerConstantsAreNoEvidence) {
@@ -76,39 +92,18 @@ TEST_F(Choose, FewerConstantsAreNoEvidence) {
 // parameter more. Above it all of them are wrong somewhere, and a little less is no evidence.
 TEST_F(Choose, ASimplerLawIsPreferredWhereMoreThanNoiseIsLeft) {
   ASSERT_GE(tried_.refits.size(), 2U);
-  tried_.refits.resize(2);
-  Refit& coulomb = tried_.refits[0];
-  Refit& viscous = tried_.refits[1];
-  viscous.own = 0;
-  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
-  const auto named_at = [&](double level) {
-    set_squares(squares, {level * level}, data_, coulomb);
-    set_squares(squares, {1.03 * level * level}, data_, viscous);
-    coulomb.estimate.scores = coulomb.estimate.predicted.scores;
-    return choose(tried_.stage, tried_.refits, data_, options_).named;
-  };
-  EXPECT_EQ(named_at(1.0), 0);
-  EXPECT_EQ(named_at(1.5), 1);
+  constexpr double kWorse = 1.03;  // of the square
+  EXPECT_EQ(named_at(1.0, kWorse), 0);
+  EXPECT_EQ(named_at(1.5, kWorse), 1);
 }
 
 // Far above the floor the constants of a law make up for what else is missing: a member of its family at its
 // place that does nearly as well without them is named.
 TEST_F(Choose, FarAboveTheFloorTheSimplerLawOfAFamilyIsEnough) {
   ASSERT_GE(tried_.refits.size(), 2U);
-  tried_.refits.resize(2);
-  Refit& coulomb = tried_.refits[0];
-  Refit& viscous = tried_.refits[1];
-  viscous.own = 0;
-  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
-  const auto named_at = [&](double level, double times) {
-    set_squares(squares, {level * level}, data_, coulomb);
-    set_squares(squares, {times * times * level * level}, data_, viscous);
-    coulomb.estimate.scores = coulomb.estimate.predicted.scores;
-    return choose(tried_.stage, tried_.refits, data_, options_).named;
-  };
-  EXPECT_EQ(named_at(2.0, 1.15), 0);
-  EXPECT_EQ(named_at(10.0, 1.15), 1);
-  EXPECT_EQ(named_at(10.0, 1.4), 0);
+  EXPECT_EQ(named_at(2.0, 1.15 * 1.15), 0);
+  EXPECT_EQ(named_at(10.0, 1.15 * 1.15), 1);
+  EXPECT_EQ(named_at(10.0, 1.4 * 1.4), 0);
 }
 
 }  // namespace

@@ -40,11 +40,15 @@ TEST(Family, IsOfOnePlace) {
   EXPECT_FALSE(are_one("boom", "base", "boom", "base")) << "a family needs two";
 }
 
+Data friction_at_both_motors() {
+  return bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004", "coulomb@mLS:level=0.08",
+                      "viscous@mLS:damping=0.006"})
+      .thinned(8);
+}
+
 // Friction of both kinds at both motors: one after the other the search would name compromises.
 TEST(FrictionEverywhere, IsFoundAtOnce) {
-  const Data data = bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004",
-                                 "coulomb@mLS:level=0.08", "viscous@mLS:damping=0.006"})
-                        .thinned(8);
+  const Data data = friction_at_both_motors();
   const DiagnoseOptions options;
   const Tried tried =
       try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
@@ -60,9 +64,7 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
 
 // Hundreds of floors away it is asked before any single effect is refitted: by what these promise.
 TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
-  const Data data = bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004",
-                                 "coulomb@mLS:level=0.08", "viscous@mLS:damping=0.006"})
-                        .thinned(8);
+  const Data data = friction_at_both_motors();
   const DiagnoseOptions options;
   const Tried both =
       screen_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, silent);

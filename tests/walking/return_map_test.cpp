@@ -2,28 +2,10 @@
 // scaled. Nothing of this was used to place the design model's torso.
 #include <gtest/gtest.h>
 
-#include "validation/walking/rigid_gait.h"
+#include "tests/walking/published_gait.h"
 
 namespace plumbline::validation {
 namespace {
-
-const std::string kFile = PLUMBLINE_ROOT "/robots/mabel/walking_design.yaml";
-
-struct Found {
-  RigidGait gait = read_rigid_gait(kFile);
-  RigidWalker walker{gait};
-  RigidGaitOptions options;
-  RigidWalker::FixedPoint point;
-  Found() {
-    options.tolerance = 1e-7;
-    point = walker.fixed_point(
-        {gait.start.at("theta_rate"), gait.start.at("spring"), gait.start.at("spring_rate")}, options);
-  }
-};
-Found& found() {
-  static Found one;
-  return one;
-}
 
 // Sreenath et al. (2011), section IV: 0.7258, 2.638e-5 and less with the constraints kept.
 TEST(ReturnMap, HasThePublishedMultiplierWithTheConstraintsKept) {

@@ -1,34 +1,11 @@
 // MABEL's published gait on its design model: what is found against what was printed.
-#include "validation/walking/rigid_gait.h"
-
 #include <gtest/gtest.h>
 
 #include "simulator/trace/error.h"
+#include "tests/walking/published_gait.h"
 
 namespace plumbline::validation {
 namespace {
-
-const std::string kFile = PLUMBLINE_ROOT "/robots/mabel/walking_design.yaml";
-
-Eigen::Vector3d start_of(const RigidGait& gait) {
-  return {gait.start.at("theta_rate"), gait.start.at("spring"), gait.start.at("spring_rate")};
-}
-
-/// The gait and its step that repeats, found once for all tests here.
-struct Found {
-  RigidGait gait = read_rigid_gait(kFile);
-  RigidWalker walker{gait};
-  RigidGaitOptions options;
-  RigidWalker::FixedPoint point;
-  Found() {
-    options.tolerance = 1e-7;
-    point = walker.fixed_point(start_of(gait), options);
-  }
-};
-Found& found() {
-  static Found one;
-  return one;
-}
 
 /// Linear between rows.
 double at(const Column& t, const Column& values, double when) {
