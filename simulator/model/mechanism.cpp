@@ -7,10 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulator/model/engine.h"
 #include "simulator/model/tree_dynamics.h"
 
 namespace plumbline::model {
 namespace {
+
+Engine chosen = Engine::tree;
 
 SimTK::Vec3 to_simtk(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -42,6 +45,9 @@ Eigen::Isometry3d along_axis(const Joint& joint) {
 }
 
 }  // namespace
+
+void set_engine(Engine engine) { chosen = engine; }
+Engine engine() { return chosen; }
 
 // Simbody holds the tree, checks it and gives its energy. Poses, mass matrix and bias are TreeDynamics':
 // Simbody's own operators cost one pass over the tree for each column, and its kinematics as much as all the
@@ -148,15 +154,50 @@ struct Mechanism::Impl {
         .getMobilizedBodyIndex();
   }
 
+  /// Of Simbody's coordinate over ours: a slide along an arc is a pin there.
+  static double turn_of(const TreeBody& body) { return body.arc.is_bent() ? body.arc.turn.norm() : 1.0; }
+
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     SimTK::Vector& Q = state.updQ();
     SimTK::Vector& U = state.updU();
     for (const TreeBody& body : bodies) {
       const int i = body.coordinate;
       if (i >= 0) {
-        const double per_metre = body.arc.is_bent() ? body.arc.turn.norm() : 1.0;
-        Q[i] = per_metre * (q[i] - body.arc.straight);
-        U[i] = per_metre * v[i];
+        Q[i] = turn_of(body) * (q[i] - body.arc.straight);
+        U[i] = turn_of(body) * v[i];
+      }
+    }
+    const SimTK::Subsystem::Guts& guts = matter.getSubsystemGuts();
+    guts.realizeSubsystemTime(state);
+    guts.realizeSubsystemPosition(state);
+    guts.realizeSubsystemVelocity(state);
+  }
+
+  /// M and h by Simbody's operators: h is the force that leaves all accelerations at zero under gravity.
+  void ask_simbody(Eigen::MatrixXd& M, Eigen::VectorXd& h) {
+    if (h.size() == 0) {
+      return;  // Simbody's operators read the first element of an empty vector
+    }
+    SimTK::Matrix mass;
+    matter.calcM(state, mass);
+    SimTK::Vector_<SimTK::SpatialVec> weights(matter.getNumBodies(), SimTK::SpatialVec(SimTK::Vec3(0)));
+    for (std::size_t b = 0; b < moving.size(); ++b) {
+      const SimTK::MobilizedBody& body = matter.getMobilizedBody(moving[b]);
+      const SimTK::Vec3 arm = body.expressVectorInGroundFrame(state, to_simtk(bodies[b].com));
+      const SimTK::Vec3 weight = bodies[b].mass * to_simtk(gravity);
+      weights[moving[b]] = SimTK::SpatialVec(arm % weight, weight);
+    }
+    SimTK::Vector residual;
+    matter.calcResidualForceIgnoringConstraints(state, SimTK::Vector(), weights, SimTK::Vector(), residual);
+    for (const TreeBody& row : bodies) {
+      for (const TreeBody& column : bodies) {
+        if (row.coordinate >= 0 && column.coordinate >= 0) {
+          M(row.coordinate, column.coordinate) =
+              turn_of(row) * turn_of(column) * mass(row.coordinate, column.coordinate);
+        }
+      }
+      if (row.coordinate >= 0) {
+        h[row.coordinate] = turn_of(row) * residual[row.coordinate];
       }
     }
   }
@@ -193,15 +234,15 @@ void Mechanism::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eig
   }
   d.tree->place(q);
   d.tree->assemble(v, M, h);
+  if (chosen == Engine::simbody) {  // the tree has the poses and velocities that feet ask for
+    d.set_state(q, v);
+    d.ask_simbody(M, h);
+  }
 }
 
 double Mechanism::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   Impl& d = *impl_;
   d.set_state(q, v);
-  const SimTK::Subsystem::Guts& guts = d.matter.getSubsystemGuts();
-  guts.realizeSubsystemTime(d.state);
-  guts.realizeSubsystemPosition(d.state);
-  guts.realizeSubsystemVelocity(d.state);
   double potential = 0.0;
   for (std::size_t b = 0; b < d.moving.size(); ++b) {
     const SimTK::MobilizedBody& body = d.matter.getMobilizedBody(d.moving[b]);

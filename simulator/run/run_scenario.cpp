@@ -1,6 +1,9 @@
 #include "simulator/run/run_scenario.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -11,6 +14,64 @@ namespace {
 
 constexpr double kStands = 1e-6;  // m: a foot that is put onto the ground may be so deep in it by rounding
 
+constexpr double kHeld = 0.05;  // s: a command that stays at its largest for so long is at a limit
+
+/// What is said behind a fall: of each foot since when it has been on the ground or in the air (one that
+/// missed its touchdown is in the air for long), and of each motor whether its command has stood at its
+/// largest.
+class LastWords {
+ public:
+  explicit LastWords(const model::Model& model)
+      : model_(model), feet_(model.feet.size()), motors_(model.motors.size()) {}
+
+  void follow(double now, const std::vector<model::Touch>& touches, const Eigen::VectorXd& command) {
+    for (std::size_t f = 0; f < feet_.size(); ++f) {
+      const bool down = touches[f].depth > 0.0;
+      if (!known_ || down != feet_[f].down) {
+        feet_[f] = {down, now};
+      }
+    }
+    known_ = true;
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+      const double size = std::abs(command[static_cast<Eigen::Index>(m)]);
+      Motor& motor = motors_[m];
+      if (size > motor.largest || size < motor.largest || motor.since < 0.0) {
+        motor.since = size > 0.0 && size >= motor.largest ? now : -1.0;
+      }
+      motor.largest = std::max(motor.largest, size);
+    }
+  }
+
+  std::string at(double now) const {
+    std::string words;
+    const auto add = [&](const std::string& more) { words += (words.empty() ? "" : ", ") + more; };
+    for (std::size_t f = 0; f < feet_.size(); ++f) {
+      add(fmt::format("foot {} {} since {:.3f} s", model_.feet[f].name,
+                      feet_[f].down ? "on the ground" : "in the air", feet_[f].since));
+    }
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+      if (motors_[m].since >= 0.0 && now - motors_[m].since > kHeld) {
+        add(fmt::format("{} at its largest torque, {:.3g} {}, since {:.3f} s", model_.motors[m].name,
+                        motors_[m].largest, model_.motors[m].command_unit, motors_[m].since));
+      }
+    }
+    return words.empty() ? "" : " (" + words + ")";
+  }
+
+ private:
+  struct Foot {
+    bool down = false;
+    double since = 0.0;
+  };
+  struct Motor {
+    double largest = 0.0, since = -1.0;  // since: -1 while the command is below its largest
+  };
+  const model::Model& model_;
+  bool known_ = false;
+  std::vector<Foot> feet_;
+  std::vector<Motor> motors_;
+};
+
 /// Keeps what is asked for, and says when it is over.
 class Account {
  public:
@@ -19,7 +80,8 @@ class Account {
       : scenario_(scenario),
         options_(options),
         ends_(scenario.ends, sampled.controller()),
-        recorder_(model, sampled.controller()) {}
+        recorder_(model, sampled.controller()),
+        last_words_(model) {}
 
   bool over(SampledRun& sampled, RunRecord& run) {
     const Simulation& simulation = sampled.simulation();
@@ -32,8 +94,12 @@ class Account {
       recorder_.row(simulation, sampled.sensed(), sampled.command());
     }
     const bool ended = options_.watch && options_.watch(sampled);
+    last_words_.follow(run.time, simulation.touches(), sampled.command());
     run.end = ends_.look(simulation);
     run.fell = !run.end.empty();
+    if (run.fell) {
+      run.end += last_words_.at(run.time);
+    }
     return ended || run.fell || run.time >= scenario_.longest;
   }
 
@@ -51,6 +117,7 @@ class Account {
   const RunOptions& options_;
   EndWatch ends_;
   Recorder recorder_;
+  LastWords last_words_;
 };
 
 /// False where the integrator finds no way on; `run` then says so.

@@ -30,7 +30,11 @@ void Sensors::read(const Eigen::VectorXd& outputs, const std::vector<model::Touc
   }
   sensed.switches.resize(static_cast<Eigen::Index>(model_.switches.size()));
   for (std::size_t k = 0; k < model_.switches.size(); ++k) {
-    sensed.switches[static_cast<Eigen::Index>(k)] = sensed.feet[model_.switches[k].foot];
+    // Closed: its foot is in the ground and, where the switch has a threshold, pressed by more.
+    const model::ContactSwitch& one = model_.switches[k];
+    const bool presses =
+        one.threshold == 0.0 || touches[static_cast<std::size_t>(one.foot)].force.z() > one.threshold;
+    sensed.switches[static_cast<Eigen::Index>(k)] = presses ? sensed.feet[one.foot] : 0.0;
   }
 }
 

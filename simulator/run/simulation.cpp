@@ -49,7 +49,7 @@ void Simulation::account(const Eigen::VectorXd& command) {
 
 void Simulation::advance(const Eigen::VectorXd& command) {
   const Eigen::Index newest = held_.samples() - 1;
-  for (Eigen::Index k = 0; k < (samples_ == 0 ? newest : 0); ++k) {
+  for (Eigen::Index k = 0; samples_ == 0 && k <= newest; ++k) {
     held_.set(k, command.data());
   }
   held_.push(command.data());

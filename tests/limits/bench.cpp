@@ -40,28 +40,26 @@ model::Model with_effect(const model::Model& model, const std::string& law, cons
   return with_effect(model, effects::Catalogue::all().find(law), at, values);
 }
 
-integrate::RunOptions options_at(double relative_tolerance) {
-  integrate::RunOptions options;
+run::CommandedOptions options_at(double relative_tolerance) {
+  run::CommandedOptions options;
   options.integrator.relative_tolerance = relative_tolerance;
   options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-2 * relative_tolerance);
   return options;
 }
 
-integrate::RunResult simulate(const model::Model& model, const validation::Experiment& experiment,
-                              const integrate::RunOptions& options) {
+run::CommandedRun simulate(const model::Model& model, const validation::Experiment& experiment,
+                           const run::CommandedOptions& options) {
   model::Plant plant(model, validation::locks_of(model, experiment));
   Eigen::MatrixXd commands = Eigen::MatrixXd::Zero(plant.motors(), experiment.time.size());
-  std::vector<double> delays;
   for (int m = 0; m < plant.motors(); ++m) {
-    delays.push_back(plant.delay(m));
     for (const validation::Command& command : experiment.commands) {
       if (command.motor == model.motors[static_cast<std::size_t>(m)].name) {
         commands.row(m) = command.values.transpose();
       }
     }
   }
-  return integrate::run(plant, validation::start_state(plant, experiment),
-                        {commands, experiment.period, delays}, 0.0, {}, {}, options);
+  return run::run_commands(plant, validation::start_state(plant, experiment), commands, experiment.period,
+                           0.0, {}, nullptr, options);
 }
 
 NamedMap named_map(const model::Plant& plant, const std::vector<std::string>& names) {
@@ -80,11 +78,11 @@ NamedMap named_map(const model::Plant& plant, const std::vector<std::string>& na
   return result;
 }
 
-double largest_difference(const integrate::RunResult& one, const integrate::RunResult& other) {
+double largest_difference(const run::CommandedRun& one, const run::CommandedRun& other) {
   return (one.outputs - other.outputs).cwiseAbs().maxCoeff();
 }
 
-effects::Scales scales_of(const model::Model& model, const integrate::RunResult& run, effects::Place place,
+effects::Scales scales_of(const model::Model& model, const run::CommandedRun& run, effects::Place place,
                           const std::string& at) {
   const std::string seen = place == effects::Place::ratio ? model.find_ratio(at)->motor : at;
   model::Plant plant(model, {});

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/integrate/run.h"
+#include "simulator/run/commanded_run.h"
 #include "simulator/model/robot_file.h"
 #include "validation/twin/twin.h"
 
@@ -24,10 +24,10 @@ model::Model with_effect(const model::Model& model, const std::string& law, cons
                          const effects::Values& values);
 
 /// explicit_rk at a relative tolerance, absolute tolerance a hundredth of it.
-integrate::RunOptions options_at(double relative_tolerance);
+run::CommandedOptions options_at(double relative_tolerance);
 
-integrate::RunResult simulate(const model::Model& model, const validation::Experiment& experiment,
-                              const integrate::RunOptions& options);
+run::CommandedRun simulate(const model::Model& model, const validation::Experiment& experiment,
+                              const run::CommandedOptions& options);
 
 /// The linear map from the plant's independent coordinates to named ones: named = offset + map * z.
 struct NamedMap {
@@ -37,10 +37,10 @@ struct NamedMap {
 NamedMap named_map(const model::Plant& plant, const std::vector<std::string>& names);
 
 /// Largest difference of a sensor's course between two runs.
-double largest_difference(const integrate::RunResult& one, const integrate::RunResult& other);
+double largest_difference(const run::CommandedRun& one, const run::CommandedRun& other);
 
 /// Typical magnitudes at a place from a run of the model without the effect.
-effects::Scales scales_of(const model::Model& model, const integrate::RunResult& run, effects::Place place,
+effects::Scales scales_of(const model::Model& model, const run::CommandedRun& run, effects::Place place,
                           const std::string& at);
 
 /// A value for every parameter: the law's first start, with amplitudes that are null there at a tenth of

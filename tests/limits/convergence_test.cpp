@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kTolerance = 1e-9;
 
-integrate::RunOptions quiet() {
-  integrate::RunOptions options = options_at(kTolerance);
+run::CommandedOptions quiet() {
+  run::CommandedOptions options = options_at(kTolerance);
   options.energy = false;
   return options;
 }
@@ -29,7 +29,7 @@ void expect_order(const std::vector<double>& parameter, const std::vector<double
 TEST(Convergence, CableStretchBecomesRigidAsItsStiffnessGrows) {
   const model::Model rigid = leg_bench();
   const validation::Experiment experiment = both_motors(rigid, 0.5);
-  const integrate::RunResult reference = simulate(rigid, experiment, quiet());
+  const run::CommandedRun reference = simulate(rigid, experiment, quiet());
   const std::vector<double> stiffness = {3e2, 3e3, 3e4};
   std::vector<double> error;
   for (const double K : stiffness) {
@@ -44,7 +44,7 @@ TEST(Convergence, CableStretchBecomesRigidAsItsStiffnessGrows) {
 TEST(Convergence, ActuatorLagVanishesWithItsTimeConstant) {
   const model::Model rigid = leg_bench();
   const validation::Experiment experiment = both_motors(rigid, 0.5);
-  const integrate::RunResult reference = simulate(rigid, experiment, quiet());
+  const run::CommandedRun reference = simulate(rigid, experiment, quiet());
   const std::vector<double> constants = {1e-3, 2.5e-4, 6.25e-5};
   std::vector<double> error;
   for (const double T : constants) {
@@ -55,7 +55,7 @@ TEST(Convergence, ActuatorLagVanishesWithItsTimeConstant) {
 }
 
 /// The course of a coordinate between samples, by Hermite's cubic over the sample that holds t.
-double position_at(const model::Model& model, const integrate::RunResult& run, const std::string& name,
+double position_at(const model::Model& model, const run::CommandedRun& run, const std::string& name,
                    double t) {
   const model::Plant plant(model, {});
   const double h = run.time[1] - run.time[0];
@@ -72,13 +72,13 @@ double position_at(const model::Model& model, const integrate::RunResult& run, c
 TEST(Convergence, HardStopIsMetWhereItBegins) {
   const model::Model bare = leg_bench();
   const validation::Experiment experiment = both_motors(bare, 1.0);
-  const integrate::RunResult free = simulate(bare, experiment, quiet());
+  const run::CommandedRun free = simulate(bare, experiment, quiet());
   const effects::Scales scales = scales_of(bare, free, effects::Place::coordinate, "thigh");
   const double wall = scales.center + 0.4 * scales.position;
   // Stiffness and damping such that the leg enters and leaves; no root, whose kinks are switches of their
   // own.
   const model::Model stopped = with_effect(bare, "hard_stop", "thigh", {3e5, 1.0, 0.0, wall, 1.0, 1.0, 0.0});
-  const integrate::RunResult run = simulate(stopped, experiment, quiet());
+  const run::CommandedRun run = simulate(stopped, experiment, quiet());
   const model::Plant plant(stopped, {});
   int crossings = 0;
   for (Eigen::Index k = 1; k < run.time.size(); ++k) {

@@ -14,7 +14,7 @@ constexpr double kTight = 1e-8;
 constexpr double kBalance = 1e-5;
 
 /// Energy that the account misses, as a share of what was exchanged.
-double imbalance(const integrate::RunResult& run) {
+double imbalance(const run::CommandedRun& run) {
   return std::abs(run.energy_error) / run.energy_exchanged;
 }
 
@@ -28,7 +28,7 @@ std::string place_for(const model::Model& model, effects::Place place) {
 struct Bench {
   model::Model model = leg_bench();
   validation::Experiment experiment = both_motors(model, kSeconds);
-  integrate::RunResult run = simulate(model, experiment, options_at(kTight));
+  run::CommandedRun run = simulate(model, experiment, options_at(kTight));
 };
 
 const Bench& bench() {
@@ -37,8 +37,8 @@ const Bench& bench() {
 }
 
 void expect_balance(const model::Model& model, const std::string& label) {
-  const integrate::RunResult loose = simulate(model, bench().experiment, options_at(kLoose));
-  const integrate::RunResult tight = simulate(model, bench().experiment, options_at(kTight));
+  const run::CommandedRun loose = simulate(model, bench().experiment, options_at(kLoose));
+  const run::CommandedRun tight = simulate(model, bench().experiment, options_at(kTight));
   const double rough = imbalance(loose);
   const double fine = imbalance(tight);
   std::printf("%-34s %10.1e at %.0e, %10.1e at %.0e, exchanged %.3g J, %ld rates\n", label.c_str(), rough,
@@ -64,7 +64,7 @@ TEST_P(ForceEffect, BalanceCloses) {
   for (const effects::Place place : law->declaration().places) {
     const std::string at = place_for(bench().model, place);
     const model::Model model = with_law(bench().model, law, place, at);
-    const integrate::RunResult run = simulate(model, bench().experiment, options_at(kTight));
+    const run::CommandedRun run = simulate(model, bench().experiment, options_at(kTight));
     EXPECT_GT(largest_difference(run, bench().run), 1e-4) << GetParam() << " did nothing at " << at;
     expect_balance(model, GetParam() + " at " + at);
   }

@@ -48,8 +48,7 @@ Swing swing(double amplitude) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
   x[0] = amplitude / named.map(0, 0);
   const Eigen::MatrixXd idle = Eigen::MatrixXd::Zero(1, 6001);
-  const integrate::RunResult run =
-      integrate::run(plant, x, {idle, 1e-3, {0.0}}, 0.0, {}, {}, options_at(1e-11));
+  const run::CommandedRun run = run::run_commands(plant, x, idle, 1e-3, 0.0, {}, nullptr, options_at(1e-11));
   Swing result;
   for (const integrate::Event& event : run.events) {
     result.bottoms.push_back(event.time);

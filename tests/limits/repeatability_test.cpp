@@ -16,8 +16,8 @@ model::Model several_effects() {
 TEST(Repeatability, TwoRunsAreTheSameBitForBit) {
   const model::Model model = several_effects();
   const validation::Experiment experiment = both_motors(model, 0.5);
-  const integrate::RunResult one = simulate(model, experiment, options_at(1e-6));
-  const integrate::RunResult two = simulate(model, experiment, options_at(1e-6));
+  const run::CommandedRun one = simulate(model, experiment, options_at(1e-6));
+  const run::CommandedRun two = simulate(model, experiment, options_at(1e-6));
   EXPECT_TRUE(one.states == two.states);
   EXPECT_TRUE(one.outputs == two.outputs);
   EXPECT_EQ(one.energy_error, two.energy_error);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "simulator/integrate/run.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/run/commanded_run.h"
 #include "simulator/trace/error.h"
 #include "tests/trace/temporary_folder.h"
 
@@ -78,12 +78,12 @@ class FeetTest : public testing::Test {
     return read_model(folder_.write("model.yaml", model_text(gravity, foot, effects)), known_effects());
   }
 
-  static integrate::RunResult run(Plant& plant, const Eigen::VectorXd& x0, Eigen::Index samples) {
-    integrate::RunOptions options;
+  static run::CommandedRun run(Plant& plant, const Eigen::VectorXd& x0, Eigen::Index samples) {
+    run::CommandedOptions options;
     options.integrator.method = integrate::Method::rosenbrock;
     options.integrator.relative_tolerance = 1e-7;
     options.integrator.absolute_tolerance = Eigen::VectorXd::Constant(1, 1e-10);
-    return integrate::run(plant, x0, {Eigen::MatrixXd::Zero(0, samples), 1e-3, {}}, 0.0, {}, {}, options);
+    return run::run_commands(plant, x0, Eigen::MatrixXd::Zero(0, samples), 1e-3, 0.0, {}, nullptr, options);
   }
 
   std::string refusal(const std::string& foot) const {
@@ -105,7 +105,7 @@ TEST_F(FeetTest, AnImpactReboundsAsTheClosedForm) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   x[1] = 0.3005;
   x[3] = -1.2;
-  const integrate::RunResult result = run(plant, x, 60);
+  const run::CommandedRun result = run(plant, x, 60);
   const double v_out = result.states(3, 59);
   const double a = 0.2;
   EXPECT_GT(v_out, 0.5);
@@ -118,7 +118,7 @@ TEST_F(FeetTest, EnergyIsAccountedForWhileTheFootSlidesAndComesToRest) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   x[1] = 0.31;
   x[2] = 0.8;
-  const integrate::RunResult result = run(plant, x, 1500);
+  const run::CommandedRun result = run(plant, x, 1500);
   EXPECT_LT(std::abs(result.energy_error), 1e-6 * result.energy_exchanged);
   Eigen::VectorXd end = result.states.col(1499);
   const Touch touch = plant.touches(end.data())[0];
@@ -132,7 +132,7 @@ TEST_F(FeetTest, FrictionOpposesTheSlip) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   x[1] = 0.29979;
   x[2] = 2.0;
-  const integrate::RunResult result = run(plant, x, 200);
+  const run::CommandedRun result = run(plant, x, 200);
   Eigen::VectorXd late = result.states.col(199);
   const Touch touch = plant.touches(late.data())[0];
   const double v = touch.velocity.x();

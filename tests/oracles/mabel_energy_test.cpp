@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "simulator/integrate/run.h"
+#include "simulator/run/commanded_run.h"
 #include "tests/oracles/mabel_in_the_air.h"
 
 namespace plumbline::oracles {
@@ -16,7 +16,7 @@ namespace {
 constexpr double kPeriod = 1e-3;
 constexpr Eigen::Index kSamples = 300;
 
-integrate::RunResult swing(const std::string& file) {
+run::CommandedRun swing(const std::string& file) {
   const model::Model model = mabel_in_the_air(file);
   model::Plant plant(model, {});
   Eigen::MatrixXd commands(4, kSamples);
@@ -25,17 +25,17 @@ integrate::RunResult swing(const std::string& file) {
     commands.col(k) << 2.0 * std::sin(20.0 * t), 6.0 * std::sin(30.0 * t), -3.0 * std::sin(15.0 * t),
         8.0 * std::sin(25.0 * t);
   }
-  integrate::RunOptions options;
+  run::CommandedOptions options;
   options.integrator.method = integrate::Method::bdf;
   options.integrator.relative_tolerance = 1e-7;
-  const integrate::HeldCommands held(commands, kPeriod, plant.delays());
-  return run(plant, Eigen::VectorXd::Zero(plant.states()), held, 0.0, {}, {}, options);
+  return run::run_commands(plant, Eigen::VectorXd::Zero(plant.states()), commands, kPeriod, 0.0, {}, nullptr,
+                           options);
 }
 
 TEST(MabelEnergy, AccountCloses) {
   for (const char* file : {"mabel_planar.yaml", "mabel.yaml"}) {
     const auto start = std::chrono::steady_clock::now();
-    const integrate::RunResult result = swing(file);
+    const run::CommandedRun result = swing(file);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     std::printf("%s: %.2g of %.3g J missing, %ld switches, %ld rates, %.3f s for %.1f s\n", file,
                 result.energy_error, result.energy_exchanged, result.summary.switches_found,

@@ -102,6 +102,17 @@ TEST(Scenario, AnEndIsSaidInWords) {
   EXPECT_LT(run.time, 10.0);
 }
 
+// Without a controller the robot sinks onto both feet; neither motor is commanded.
+TEST(Scenario, AFallSaysWhereTheFeetAre) {
+  const LoadedScenario loaded = read_scenario(robots("mabel/scenarios/walking.yaml"));
+  const RunRecord run = run_scenario(loaded.model, loaded.scenario, nullptr, {});
+  ASSERT_TRUE(run.fell);
+  EXPECT_THAT(run.end, HasSubstr("foot left "));
+  EXPECT_THAT(run.end, HasSubstr("foot right "));
+  EXPECT_THAT(run.end, HasSubstr(" since "));
+  EXPECT_THAT(run.end, testing::Not(HasSubstr("largest torque")));
+}
+
 TEST(Scenario, APlatformUnderAFootIsRefused) {
   LoadedScenario loaded = read_scenario(robots("mabel/scenarios/hopping.yaml"));
   loaded.scenario.terrain = contact::Terrain(0.0, {{-1.0, 1.0, 0.3}});

@@ -54,6 +54,14 @@ void print_step(const RigidGait& gait, const RigidStep& step) {
        {"largest friction over normal force", "", fmt::format("{:.3f}", step.largest_friction)}});
 }
 
+/// What a real floor would not do for a pinned toe.
+void print_doubt(const RigidStep& step) {
+  if (step.least_normal < 0.0) {
+    fmt::print("\nThe pinned toe pulls at the ground with up to {:.1f} N: the robot would lift off.\n",
+               -step.least_normal);
+  }
+}
+
 /// Linear between rows; the step's own time runs from 0 to its end.
 double at(const Eigen::VectorXd& t, const Eigen::VectorXd& values, double when) {
   const double* const after = std::upper_bound(t.data(), t.data() + t.size(), when);
@@ -156,6 +164,7 @@ void run(const GaitArguments& arguments, Outcome& outcome) {
   options.trace = true;
   const RigidStep step = walker.step(walker.after_touchdown(point.at, options.impact_scale), options);
   print_step(gait, step);
+  print_doubt(step);
   if (!gait.curves.empty()) {
     print_curves(gait, step);
   }

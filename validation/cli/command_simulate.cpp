@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "simulator/model/engine.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -21,6 +22,7 @@ struct Options {
   std::string trial, experiment, model, data_folder, out, json;
   validation::ReplayOptions replay;
   ScenarioOptions scenario;
+  model::Engine engine = model::Engine::tree;
 };
 
 /// What is said of every simulation.
@@ -165,6 +167,7 @@ void run_replay(Options options) {
 
 void run(const Options& options) {
   check_choice(options);
+  model::set_engine(options.engine);
   check_trace_file(options.out);
   check_writable(options.json);
   check_not_an_input(options.out, {options.model, options.experiment});
@@ -180,6 +183,18 @@ void run(const Options& options) {
   if (!options.out.empty()) {
     fmt::print("\nTrace: {}\n", options.out);
   }
+}
+
+void add_engine(CLI::App& command, Options& options) {
+  const std::map<std::string, model::Engine> engines{{"tree", model::Engine::tree},
+                                                     {"simbody", model::Engine::simbody}};
+  command
+      .add_option_function<std::string>(
+          "--engine", [&options, engines](const std::string& name) { options.engine = engines.at(name); },
+          "what computes the rigid bodies' mass matrix and bias: the project's own tree, or simbody for "
+          "Simbody's operators (slower)")
+      ->check(CLI::IsMember(engines))
+      ->type_name("ENGINE");
 }
 
 void add_method(CLI::App& command, Options& options) {
@@ -278,6 +293,7 @@ void add_simulate(CLI::App& app, Outcome& /*outcome*/) {
   command->add_flag("--closed-loop", options->replay.closed_loop,
                     "let the trial's controllers command the motors, not the recording");
   add_method(*command, *options);
+  add_engine(*command, *options);
   add_json_option(*command, options->json);
   command->footer(
       "Example:\n  plumbline simulate demo/siso_mLA --model robots/mabel/leg_bench.yaml -o trace.csv\n"

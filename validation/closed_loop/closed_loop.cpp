@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "simulator/integrate/run.h"
+#include "simulator/run/commanded_run.h"
 #include "validation/closed_loop/controllers.h"
 
 namespace plumbline::validation {
@@ -81,24 +81,23 @@ void check_equation(const Loop& loop, double period, LoopError& error) {
   error.equation_rms = std::sqrt(rest.squaredNorm() / static_cast<double>(n));
 }
 
-integrate::RunResult simulate(Predictor& predictor, const Trial& trial, double relative_tolerance) {
+run::CommandedRun simulate(Predictor& predictor, const Trial& trial, double relative_tolerance) {
   model::Plant& plant = predictor.plant();
   const Eigen::VectorXd x0 = predictor.initial_state({0, 0, trial.samples()});
   TrialControllers controllers(plant, trial, x0);
-  const integrate::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
-                                                   double* command) {
+  const run::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
+                                             double* command) {
     controllers.command(k, y, command);
     if (!y.allFinite()) {
       throw std::runtime_error("the simulated motion is not finite");
     }
   };
-  integrate::RunOptions run;
+  run::CommandedOptions run;
   run.energy = false;
   run.events = false;
   run.integrator.set_tolerance(relative_tolerance);
-  const integrate::HeldCommands commands(command_samples(plant.model(), trial.commands, trial.samples()),
-                                         trial.period, plant.delays());
-  return integrate::run(plant, x0, commands, trial.time[0], control, {}, run);
+  return run::run_commands(plant, x0, command_samples(plant.model(), trial.commands, trial.samples()),
+                           trial.period, trial.time[0], control, nullptr, run);
 }
 
 }  // namespace
@@ -112,7 +111,7 @@ ClosedLoop closed_loop(const model::Model& model, const Trial& trial, const Pred
   }
   Predictor predictor(model, trial, options);
   try {
-    const integrate::RunResult run = simulate(predictor, trial, options.relative_tolerance);
+    const run::CommandedRun run = simulate(predictor, trial, options.relative_tolerance);
     result.readings = run.readings;
     result.commands = run.commands;
   } catch (const std::runtime_error& error) {

@@ -4,26 +4,12 @@
 #include <cmath>
 
 #include "simulator/model/kinds.h"
-#include "simulator/sensing/encoder.h"
 #include "simulator/trace/error.h"
 #include "validation/closed_loop/controllers.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {
-
-/// Quantised, without noise: a run is repeatable.
-integrate::Readout readout_of(const model::Model& model) {
-  return [&model](Eigen::VectorXd& readings) {
-    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
-      const double resolution = model.sensors[s].resolution;
-      if (resolution > 0.0) {
-        double& value = readings[static_cast<Eigen::Index>(s)];
-        value = sensing::Encoder{resolution, 1.0, 0.0}.reading(value);
-      }
-    }
-  };
-}
 
 void add_place(model::Plant& plant, const std::string& name, bool angular, const Eigen::MatrixXd& states,
                Table& trace) {
@@ -55,7 +41,7 @@ void add_forces(model::Plant& plant, const Eigen::MatrixXd& states, Table& trace
   }
 }
 
-Table trace_of(model::Plant& plant, const integrate::RunResult& run) {
+Table trace_of(model::Plant& plant, const run::CommandedRun& run) {
   const model::Model& model = plant.model();
   Table trace;
   trace.columns.push_back({"t", "s", run.time});
@@ -95,12 +81,13 @@ Replay run(model::Plant& plant, const Beginning& start, TrialControllers* loops,
       loops->command(sample, readings, command);
     }
   };
-  integrate::RunOptions run_options;
+  run::CommandedOptions run_options;
   run_options.integrator = options.integrator;
   const auto begin = std::chrono::steady_clock::now();
   Replay replay;
-  replay.run = integrate::run(plant, start.x0, {start.commands, start.period, plant.delays()}, start.time,
-                              each_sample, readout_of(plant.model()), run_options);
+  run::Sensors sensors(plant.model(), {false, true, 0});  // without noise: a run is repeatable
+  replay.run = run::run_commands(plant, start.x0, start.commands, start.period, start.time, each_sample,
+                                 &sensors, run_options);
   replay.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   replay.duration = start.period * static_cast<double>(start.commands.cols() - 1);
   replay.trace = trace_of(plant, replay.run);
@@ -108,7 +95,7 @@ Replay run(model::Plant& plant, const Beginning& start, TrialControllers* loops,
 }
 
 std::vector<ReplayError> errors_of(const model::Model& model, const Trial& trial,
-                                   const integrate::RunResult& run) {
+                                   const run::CommandedRun& run) {
   std::vector<ReplayError> errors;
   for (const Measured& channel : trial.measured) {
     const int s = model.sensor_index(channel.sensor);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/integrate/run.h"
+#include "simulator/run/commanded_run.h"
 #include "simulator/trace/table.h"
 #include "validation/predict/problem.h"
 #include "validation/trial/trial.h"
@@ -26,7 +26,7 @@ struct ReplayError {
 };
 
 struct Replay {
-  integrate::RunResult run;
+  run::CommandedRun run;
   /// t; q_SENSOR: what the sensors would read without quantisation and noise; u_MOTOR: commands; x_NAME and
   /// v_NAME: position and velocity of each coordinate and motor; F_FOOT_x, _y, _z: force of the ground. SI.
   Table trace;

@@ -5,7 +5,7 @@
 #include <random>
 #include <sstream>
 
-#include "simulator/integrate/run.h"
+#include "simulator/run/commanded_run.h"
 #include "simulator/sensing/encoder.h"
 #include "simulator/trace/error.h"
 #include "validation/closed_loop/controllers.h"
@@ -24,18 +24,6 @@ double number_of(const std::string& text, const std::string& whole) {
     // falls through to the message
   }
   throw InputError("'" + whole + "': found '" + text + "', expected a number");
-}
-
-/// Sensors as the model describes them; the generator is shared by all channels of one run.
-integrate::Readout readout_of(const model::Model& model, bool quantise, std::mt19937_64& random) {
-  return [&model, quantise, &random](Eigen::VectorXd& readings) {
-    for (std::size_t s = 0; s < model.sensors.size(); ++s) {
-      const model::Sensor& sensor = model.sensors[s];
-      double& value = readings[static_cast<Eigen::Index>(s)];
-      value =
-          quantise ? sensor_reading(sensor, value, random) : sensing::with_noise(value, sensor.noise, random);
-    }
-  };
 }
 
 }  // namespace
@@ -141,20 +129,13 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
 
 namespace {
 
-/// Closed and open switches at each sample, 1 and 0.
-std::vector<SwitchRecord> switch_records(model::Plant& plant, const integrate::RunResult& result,
+/// What the contact switches read, late as the model says.
+std::vector<SwitchRecord> switch_records(const model::Model& model, const run::CommandedRun& result,
                                          double period) {
   std::vector<SwitchRecord> records;
-  for (const model::ContactSwitch& one : plant.model().switches) {
-    Eigen::VectorXd closed = Eigen::VectorXd::Zero(result.states.cols());
-    for (Eigen::Index k = 0; k < result.states.cols(); ++k) {
-      const double* x = result.states.col(k).data();
-      const bool touches = plant.foot_depth(one.foot, x).depth > 0.0;
-      const bool presses = one.threshold == 0.0 ||
-                           plant.touches(x)[static_cast<std::size_t>(one.foot)].force.z() > one.threshold;
-      closed[k] = touches && presses ? 1.0 : 0.0;
-    }
-    records.push_back(record_of(one, "", read_late(one, closed, period)));
+  for (std::size_t s = 0; s < model.switches.size(); ++s) {
+    const Eigen::VectorXd closed = result.switches.row(static_cast<Eigen::Index>(s)).transpose();
+    records.push_back(record_of(model.switches[s], "", read_late(model.switches[s], closed, period)));
   }
   return records;
 }
@@ -172,21 +153,19 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
   trial.controllers = experiment.controllers;
   trial.locks = locks_of(model, experiment);
   model::Plant plant(model, trial.locks);
-  std::mt19937_64 random(options.seed);
-  integrate::RunOptions run;
+  run::Sensors sensors(model, {true, options.quantise, options.seed});
+  run::CommandedOptions run;
   run.energy = false;
   run.events = false;
   run.integrator.set_tolerance(options.relative_tolerance);
-  const integrate::HeldCommands commands(command_samples(model, experiment.commands, experiment.time.size()),
-                                         experiment.period, plant.delays());
   const Eigen::VectorXd x0 = start_state(plant, experiment);
   TrialControllers loops(plant, trial, x0);
-  const integrate::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
-                                                   double* command) { loops.command(k, y, command); };
+  const run::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
+                                             double* command) { loops.command(k, y, command); };
   const bool closed = !trial.controllers.empty();
-  const integrate::RunResult result =
-      integrate::run(plant, x0, commands, 0.0, closed ? control : integrate::SampledController(),
-                     readout_of(model, options.quantise, random), run);
+  const run::CommandedRun result =
+      run::run_commands(plant, x0, command_samples(model, experiment.commands, experiment.time.size()),
+                        experiment.period, 0.0, closed ? control : run::SampledController(), &sensors, run);
   for (Command& command : trial.commands) {
     if (closed) {
       command.values = result.commands.row(model.motor_index(command.motor)).transpose();
@@ -198,7 +177,7 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
     channel.values = result.readings.row(static_cast<Eigen::Index>(s)).transpose();
     trial.measured.push_back(std::move(channel));
   }
-  trial.switches = switch_records(plant, result, experiment.period);
+  trial.switches = switch_records(model, result, experiment.period);
   trial.contact_events = contact_events(trial);
   return trial;
 }
