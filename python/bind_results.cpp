@@ -101,7 +101,7 @@ py::tuple fit(const ModelHandle& model, const std::vector<TrialHandle>& trials, 
 py::tuple diagnose(const ModelHandle& model, const std::vector<TrialHandle>& trials, double window,
                    const std::vector<std::string>& without, int most, unsigned seed,
                    const py::object& progress) {
-  validation::DiagnoseOptions options;
+  validation::Policy options;
   options.most_effects = most;
   options.seed = seed;
   const effects::Catalogue catalogue = api::catalogue_without(without);

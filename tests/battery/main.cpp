@@ -14,6 +14,7 @@
 
 #include "tests/battery/report.h"
 #include "tests/battery/results_file.h"
+#include "tests/battery/sweep.h"
 #include "tests/battery/worlds/play.h"
 
 namespace plumbline::battery {
@@ -27,6 +28,7 @@ struct Inputs {
   bool list = false;
   bool explain = false;
   bool score = false;
+  bool sweep = false;
   std::string results, json, csv;
 };
 
@@ -124,6 +126,10 @@ int run(const Inputs& inputs) {
     }
     return 0;
   }
+  if (inputs.sweep) {
+    fmt::print("{}", sweep_text(sweep(cases, inputs.run), cases.size()));
+    return 0;
+  }
   if (!inputs.run.bare_only && inputs.run.write.empty()) {
     fmt::print("{}\n", table_head());
   }
@@ -189,6 +195,8 @@ int main(int argc, char** argv) {
       "foreign worlds: ratios, centres of mass, lengths, sensors' zeros and delays scattered as a laboratory "
       "would know them, and constants of shape off the search's grid");
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
+  app.add_flag("--sweep", inputs.sweep,
+               "diagnose each case again with half and twice the value of every constant of the policy");
   app.add_flag("--timing", inputs.run.timing, "what each diagnosis does, and when, to the standard error");
   app.add_option("--write", inputs.run.write,
                  "diagnose nothing: write the trials of each case into a folder of its own below DIR")

@@ -215,12 +215,14 @@ void run(const RunOptions& options, Result& result) {
     write(options.write, one, bare, trials);
     return;
   }
-  const validation::Data data(std::move(trials), {});
+  validation::Data data(std::move(trials), {});
+  data.kept = options.kept;
   result.bare = validation::compare(bare, data).scores.held_out;
   if (!options.bare_only) {
     const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};
     const validation::Progress progress = options.timing ? timed_lines() : silent;
-    const validation::Diagnosis diagnosis = validation::diagnose(bare, catalogue_of(one), data, {}, progress);
+    const validation::Diagnosis diagnosis =
+        validation::diagnose(bare, catalogue_of(one), data, options.policy, progress);
     if (options.timing) {
       print_ladder(diagnosis);
     }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "tests/battery/cases.h"
 #include "validation/diagnose/diagnose.h"
+#include "validation/predict/kept_results.h"
 
 namespace plumbline::battery {
 
@@ -63,6 +65,9 @@ struct RunOptions {
       false;            ///< the robot's own numbers are exactly those of the model, not scattered about them
   std::string write;    ///< folder into which each case's trials are written, nothing diagnosed; empty: none
   bool timing = false;  ///< what the diagnosis does, and when, to the standard error
+  validation::Policy policy{};
+  std::shared_ptr<validation::KeptResults>
+      kept{};  ///< of diagnoses of the same case; none: of this one alone
 };
 
 /// Never throws for a case that fails: the reason is in Result::error.

@@ -25,7 +25,7 @@ void set_squares(const std::vector<Eigen::VectorXd>& squares, const std::vector<
 class Choose : public testing::Test {
  protected:
   const Data data_ = bench_twins({"coulomb@mLA:level=0.02"}).thinned(8);
-  const DiagnoseOptions options_{};
+  const Policy options_{};
   Tried tried_ = try_candidates(as_given(bench(), data_), some_laws({"coulomb", "viscous"}), {}, data_,
                                 options_, silent);
 

@@ -49,10 +49,10 @@ Data friction_at_both_motors() {
 // Friction of both kinds at both motors: one after the other the search would name compromises.
 TEST(FrictionEverywhere, IsFoundAtOnce) {
   const Data data = friction_at_both_motors();
-  const DiagnoseOptions options;
+  const Policy policy;
   const Tried tried =
-      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
-  const std::optional<Group> group = friction_everywhere(tried, data, options, silent);
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, policy, silent);
+  const std::optional<Group> group = friction_everywhere(tried, data, policy, silent);
   ASSERT_TRUE(group);
   std::vector<std::string> labels;
   for (const Candidate& candidate : group->candidates) {
@@ -65,17 +65,17 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
 // Hundreds of floors away it is asked before any single effect is refitted: by what these promise.
 TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
   const Data data = friction_at_both_motors();
-  const DiagnoseOptions options;
+  const Policy policy;
   const Tried both =
       screen_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, silent);
   ASSERT_TRUE(both.refits.empty());
-  const std::optional<Group> group = friction_everywhere(both, data, options, silent);
+  const std::optional<Group> group = friction_everywhere(both, data, policy, silent);
   ASSERT_TRUE(group);
   EXPECT_LT(group->stage.estimate.scores.train, 1.1);
   const Data one = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
   EXPECT_FALSE(friction_everywhere(
       screen_candidates(as_given(bench(), one), some_laws({"coulomb", "viscous"}), {}, one, silent), one,
-      options, silent));
+      policy, silent));
 }
 
 // Half a second of a double pendulum that swings over is far from linear in where it begins. The step of a
@@ -117,10 +117,10 @@ TEST(Search, WindowsThatAStraightLineLeadsAstrayHoldNothingBack) {
 // One friction alone is named by itself: a group of several that does no better is none.
 TEST(FrictionEverywhere, IsNothingWhereOneIsEnough) {
   const Data data = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
-  const DiagnoseOptions options;
+  const Policy policy;
   const Tried tried =
-      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, options, silent);
-  EXPECT_FALSE(friction_everywhere(tried, data, options, silent));
+      try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, policy, silent);
+  EXPECT_FALSE(friction_everywhere(tried, data, policy, silent));
 }
 
 // Stated within 50 %, a rotor's inertia might be searched down to -50 %: a tenth of it is always there.

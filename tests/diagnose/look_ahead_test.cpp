@@ -22,11 +22,11 @@ TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   const model::Model bare = bench();
   const Data data = bench_twins({"command_delay@mLS:delay=0.0014", "quadratic@mLS:drag=1.7e-5"}).thinned(8);
   const effects::Catalogue catalogue = some_laws({"command_delay", "quadratic", "viscous", "coulomb"});
-  const DiagnoseOptions options;
-  const Tried tried = try_candidates(as_given(bare, data), catalogue, {}, data, options, silent);
+  const Policy policy;
+  const Tried tried = try_candidates(as_given(bare, data), catalogue, {}, data, policy, silent);
   ASSERT_FALSE(tried.refits.empty());
   EXPECT_GT(tried.refits.front().estimate.scores.held_out, 2.0);  // one alone is not enough
-  const std::vector<Pair> pairs = look_ahead(tried, catalogue, data, options, silent);
+  const std::vector<Pair> pairs = look_ahead(tried, catalogue, data, policy, silent);
   ASSERT_FALSE(pairs.empty());
   EXPECT_THAT((std::vector<std::string>{pairs[0].first.label(), pairs[0].second.label()}),
               UnorderedElementsAre("command_delay@mLS", "quadratic@mLS"));
@@ -36,7 +36,7 @@ TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     EXPECT_GE(pairs[i].refit.square(), pairs[i - 1].refit.square());
   }
-  EXPECT_TRUE(halves_of(tried, pairs, data, options, silent).empty());  // neither is enough
+  EXPECT_TRUE(halves_of(tried, pairs, data, policy, silent).empty());  // neither is enough
 }
 
 TEST(LookAhead, FollowsOnlyWhatExplainsSomethingAlone) {
@@ -56,12 +56,12 @@ TEST(LookAhead, FollowsOnlyWhatExplainsSomethingAlone) {
 
 TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
   const Data data = bench_twins({"coulomb@mLS:level=0.003"}).thinned(8);
-  const DiagnoseOptions options;
+  const Policy policy;
   const Tried tried =
-      try_candidates(as_given(bench(), data), some_laws({"quadratic", "coulomb"}), {}, data, options, silent);
+      try_candidates(as_given(bench(), data), some_laws({"quadratic", "coulomb"}), {}, data, policy, silent);
   const std::vector<Pair> pairs =
-      look_ahead(tried, some_laws({"quadratic", "coulomb"}), data, options, silent);
-  const std::vector<Refit> halves = halves_of(tried, pairs, data, options, silent);
+      look_ahead(tried, some_laws({"quadratic", "coulomb"}), data, policy, silent);
+  const std::vector<Refit> halves = halves_of(tried, pairs, data, policy, silent);
   ASSERT_EQ(halves.size(), 1U);
   const Refit& alone = halves.front();
   EXPECT_EQ(tried.candidates[static_cast<std::size_t>(alone.candidate)].label(), "coulomb@mLS");

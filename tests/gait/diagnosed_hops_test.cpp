@@ -30,7 +30,7 @@ TEST(DiagnosedHops, NameTheStretchOfACableOnTheirBeginnings) {
   const model::Model machine = mabel("mabel_planar.yaml");
   const Data data(
       {some_hops(machine, {}, Role::train), some_hops(machine, {0.06, -0.45, 0.0}, Role::held_out)}, {});
-  DiagnoseOptions options;
+  Policy options;
   options.most_effects = 1;
   const Diagnosis diagnosis = diagnose(mabel("mabel_planar_rigid.yaml"), some_laws(), data, options,
                                        [](const std::string& /*what*/, double /*fraction*/) {});

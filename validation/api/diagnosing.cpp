@@ -24,8 +24,8 @@ bool has_one(const model::Model& model, const model::EffectUse& use) {
 
 }  // namespace
 
-Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue,
-                const validation::DiagnoseOptions& options, const validation::Progress& progress) {
+Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
+                const validation::Progress& progress) {
   Answer answer;
   answer.diagnosis = validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   const Diagnosis& diagnosis = answer.diagnosis;

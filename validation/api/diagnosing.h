@@ -16,8 +16,8 @@ struct Answer {
   std::vector<validation::UnexplainedForce> left;  ///< empty when little is left or the work was stopped
 };
 
-Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue,
-                const validation::DiagnoseOptions& options, const validation::Progress& progress);
+Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
+                const validation::Progress& progress);
 
 /// docs/formats/json-results.md, `diagnose`.
 nlohmann::json to_json(const Answer& answer);

@@ -13,7 +13,7 @@ namespace plumbline::api {
 struct ReportRequest {
   std::string diagnosis;     ///< a file of `diagnose --json` to show in place of a new diagnosis
   bool no_diagnose = false;  ///< compare only: the model and those that it stands on
-  validation::DiagnoseOptions diagnose;
+  validation::Policy diagnose;
   std::vector<std::string> command;  ///< what made it, for whoever wants to repeat it
 };
 

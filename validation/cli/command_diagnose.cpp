@@ -200,7 +200,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   struct Options {
     Inputs inputs;
     std::string save, resume;
-    validation::DiagnoseOptions diagnose;
+    validation::Policy diagnose;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("diagnose", "Which effect is missing, where, how sure");

@@ -20,21 +20,21 @@ Followed followed_further(const Data& data, const Followed& segments, bool in_an
 
 class BySegments {
  public:
-  BySegments(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
+  BySegments(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
              const Progress& progress, Diagnosis& diagnosis)
-      : catalogue_(catalogue), data_(data), options_(options), progress_(progress), diagnosis_(diagnosis) {
+      : catalogue_(catalogue), data_(data), policy_(policy), progress_(progress), diagnosis_(diagnosis) {
     // Windows that expand errors a thousandfold hardly come below it.
-    options_.at_floor = options.nothing;
+    policy_.at_floor = policy.nothing;
   }
 
   Followed run(const model::Model& model, Followed followed) {
     // The beginnings of windows are of use where these begin in flight.
     const bool promising =
-        Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+        Diagnoser(catalogue_, followed, policy_, progress_).begin_on_segments(model, diagnosis_);
     if (!promising && begin_in_flight()) {
       diagnosis_ = restarted();
       followed = follow_beginnings(model, data_);
-      Diagnoser(catalogue_, followed, options_, progress_).begin_on_segments(model, diagnosis_);
+      Diagnoser(catalogue_, followed, policy_, progress_).begin_on_segments(model, diagnosis_);
       if (!names_more(followed)) {
         return followed;
       }
@@ -43,7 +43,7 @@ class BySegments {
     }
     for (bool is_new = true; !is_whole(followed);) {
       segments_ = {followed.data, diagnosis_.final_stage.estimate.x0, followed.length};
-      const bool explained = is_below(options_.finished, diagnosis_.final_stage.estimate, followed.data);
+      const bool explained = is_below(policy_.finished, diagnosis_.final_stage.estimate, followed.data);
       Followed further = followed_further(data_, segments_, explained, progress_, diagnosis_);
       const bool is_longer = further.length > followed.length;
       if (is_new || is_longer) {
@@ -79,19 +79,19 @@ class BySegments {
   /// and they are tried again on whole windows only, before it is looked for.
   void go_on(const Followed& followed, Diagnosis& diagnosis) {
     numbers_help_ =
-        Diagnoser(catalogue_, followed, options_, progress_)
+        Diagnoser(catalogue_, followed, policy_, progress_)
             .further_on(not_followed(data_, followed) == 0, numbers_help_ || is_whole(followed), diagnosis);
   }
 
   /// Where too many whole windows are lost something is missing, whatever the error of the others.
   bool names_more(const Followed& followed) {
     const std::size_t named = diagnosis_.accepted.size();
-    Diagnoser(catalogue_, followed, options_, progress_)
+    Diagnoser(catalogue_, followed, policy_, progress_)
         .look_further(is_whole(followed) && are_too_many_lost(data_, followed), diagnosis_);
     const bool more = diagnosis_.accepted.size() > named;
     if (more) {
       numbers_help_ = true;
-      drop_superfluous(followed.data, options_, progress_, diagnosis_);
+      drop_superfluous(followed.data, policy_, progress_, diagnosis_);
     }
     return more;
   }
@@ -100,7 +100,7 @@ class BySegments {
   /// were found since. A window may have grown into a minimum beside its own with those before. The better
   /// counts.
   void grow_anew(Followed& followed) {
-    if (is_below(options_.at_floor, diagnosis_.final_stage.estimate, followed.data)) {
+    if (is_below(policy_.at_floor, diagnosis_.final_stage.estimate, followed.data)) {
       return;
     }
     Followed anew = followed_further(data_, segments_, true, progress_, diagnosis_);
@@ -118,7 +118,7 @@ class BySegments {
 
   const effects::Catalogue& catalogue_;
   const Data& data_;
-  DiagnoseOptions options_;
+  Policy policy_;
   const Progress& progress_;
   Diagnosis& diagnosis_;
   bool numbers_help_ = true;
@@ -128,9 +128,9 @@ class BySegments {
 }  // namespace
 
 Followed diagnose_by_segments(const model::Model& model, const effects::Catalogue& catalogue,
-                              const Data& data, const Followed& segments, const DiagnoseOptions& options,
+                              const Data& data, const Followed& segments, const Policy& policy,
                               const Progress& progress, Diagnosis& diagnosis) {
-  return BySegments(catalogue, data, options, progress, diagnosis).run(model, segments);
+  return BySegments(catalogue, data, policy, progress, diagnosis).run(model, segments);
 }
 
 }  // namespace plumbline::validation

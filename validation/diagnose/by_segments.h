@@ -10,7 +10,7 @@ namespace plumbline::validation {
 /// model's own numbers are free; effects are looked for where it cannot be followed any further with what has
 /// been found. Returns the windows on which it ended.
 Followed diagnose_by_segments(const model::Model& model, const effects::Catalogue& catalogue,
-                              const Data& data, const Followed& segments, const DiagnoseOptions& options,
+                              const Data& data, const Followed& segments, const Policy& policy,
                               const Progress& progress, Diagnosis& diagnosis);
 
 }  // namespace plumbline::validation

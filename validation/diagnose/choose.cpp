@@ -37,25 +37,21 @@ bool is_of_family(const Refit& one, const Refit& other, const TiedPlaces& places
          are_of_one_family(effect(one), effect(other), places);
 }
 
-/// Far above the floor the constants of a law make up for what else is missing, and a law that does nearly as
-/// well without them says as much.
-constexpr double kNearlyFar = 1.25;
-
 /// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them. Far
 /// above the floor a law of the same family at the same place with fewer fitted parameters is near for
 /// longer.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
-                                   const TiedPlaces& places, const DiagnoseOptions& options) {
+                                   const TiedPlaces& places, const Policy& policy) {
   std::vector<std::size_t> near;
   if (contenders.empty()) {
     return near;
   }
   const Refit& best = refits[contenders.front()];
-  const bool is_far = !is_below(options.far, best.estimate, data);
+  const bool is_far = !is_below(policy.far, best.estimate, data);
   for (const std::size_t i : contenders) {
     const bool is_simpler = is_far && refits[i].own < best.own && is_of_family(refits[i], best, places);
-    if (together(refits[i]) < (is_simpler ? kNearlyFar : 1.0 + options.simpler) * together(best)) {
+    if (together(refits[i]) < (1.0 + (is_simpler ? policy.simpler_far : policy.simpler)) * together(best)) {
       near.push_back(i);
     }
   }
@@ -65,24 +61,24 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
 /// The refits that are left when those with a flaw are out: a law that cannot be true takes no share from one
 /// that can. Only those that would win a share or the name are looked at, until none of them has a flaw.
 std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Refit>& refits,
-                                        const Data& data, const TiedPlaces& places,
-                                        const DiagnoseOptions& options, Choice& choice) {
+                                        const Data& data, const TiedPlaces& places, const Policy& policy,
+                                        Choice& choice) {
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
   for (bool all_seen = false; !all_seen;) {
     all_seen = true;
-    choice.shares = selected_shares(stage, refits, contenders, data, options);
-    std::vector<std::size_t> asked = near_best(refits, contenders, data, places, options);
+    choice.shares = selected_shares(stage, refits, contenders, data, policy);
+    std::vector<std::size_t> asked = near_best(refits, contenders, data, places, policy);
     for (const std::size_t i : contenders) {
-      if (choice.shares[i] > kFair) {
+      if (choice.shares[i] > policy.fair) {
         asked.push_back(i);
       }
     }
     for (const std::size_t i : asked) {
       if (!seen[i]) {
         seen[i] = true;
-        choice.objections[i] = flaw(refits[i], data, options);
+        choice.objections[i] = flaw(refits[i], data, policy);
         all_seen = all_seen && choice.objections[i].empty();
       }
     }
@@ -111,13 +107,13 @@ bool repeats_number(const Stage& stage, const Refit& refit) {
 /// it gives way to an effect that does nearly as well.
 std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std::vector<Refit>& refits,
                                                   std::vector<std::size_t> contenders, const Data& data,
-                                                  const DiagnoseOptions& options, Choice& choice) {
+                                                  const Policy& policy, Choice& choice) {
   while (!contenders.empty() && repeats_number(stage, refits[contenders.front()]) &&
-         !is_below(options.far, refits[contenders.front()].estimate, data)) {
+         !is_below(policy.far, refits[contenders.front()].estimate, data)) {
     const auto other = std::find_if(contenders.begin(), contenders.end(),
                                     [&](std::size_t i) { return !repeats_number(stage, refits[i]); });
     if (other == contenders.end() ||
-        together(refits[*other]) > kNearlyFar * together(refits[contenders.front()])) {
+        together(refits[*other]) > (1.0 + policy.simpler_far) * together(refits[contenders.front()])) {
       break;
     }
     choice.objections[contenders.front()] = "beyond all that is stated of it; an effect does nearly as well";
@@ -126,22 +122,17 @@ std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std:
   return contenders;
 }
 
-/// Relative difference of squared errors that the searches themselves may leave.
-constexpr double kSame = 2e-3;
-
 /// Better in nearly all of the resamples, and by more than the searches leave.
-bool is_surely_better(const Refit& other, const Refit& than, const Data& data,
-                      const DiagnoseOptions& options) {
-  return other.square() < (1.0 - kSame) * than.square() &&
-         share_better(other, than, data, options) > 1.0 - kFair;
+bool is_surely_better(const Refit& other, const Refit& than, const Data& data, const Policy& policy) {
+  return other.square() < (1.0 - policy.same) * than.square() &&
+         share_better(other, than, data, policy) > 1.0 - policy.fair;
 }
 
 /// The first of those that could be named, simplest first, unless another one is surely better: of as many
 /// fitted parameters, for fewer constants are no evidence, or at the floor, where what is left is noise and
 /// not the trace of something else that is missing.
 int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refit>& refits,
-                  const std::vector<std::string>& objections, const Data& data,
-                  const DiagnoseOptions& options) {
+                  const std::vector<std::string>& objections, const Data& data, const Policy& policy) {
   std::vector<std::size_t> open;
   std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(open),
                [&](std::size_t i) { return objections[i].empty(); });
@@ -151,8 +142,8 @@ int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refi
   std::size_t named = open.front();
   for (const std::size_t i : open) {
     const bool counts =
-        refits[i].own == refits[named].own || is_below(options.at_floor, refits[i].estimate, data);
-    if (counts && is_surely_better(refits[i], refits[named], data, options)) {
+        refits[i].own == refits[named].own || is_below(policy.at_floor, refits[i].estimate, data);
+    if (counts && is_surely_better(refits[i], refits[named], data, policy)) {
       named = i;
     }
   }
@@ -163,16 +154,16 @@ int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refi
 /// resamples or leave the same error; of more parameters those that are surely better, if only by little.
 std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
-                                   const DiagnoseOptions& options) {
+                                   const Policy& policy) {
   std::vector<std::size_t> rivals;
   for (const std::size_t i : contenders) {
     if (i == named) {
       continue;
     }
     const bool smaller = refits[i].own <= refits[named].own;
-    if (smaller ? share_better(refits[i], refits[named], data, options) > kFair ||
-                      refits[i].square() < (1.0 + kSame) * refits[named].square()
-                : is_surely_better(refits[i], refits[named], data, options)) {
+    if (smaller ? share_better(refits[i], refits[named], data, policy) > policy.fair ||
+                      refits[i].square() < (1.0 + policy.same) * refits[named].square()
+                : is_surely_better(refits[i], refits[named], data, policy)) {
       rivals.push_back(i);
     }
   }
@@ -181,8 +172,7 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
 
 }  // namespace
 
-Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
-              const DiagnoseOptions& options) {
+Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data, const Policy& policy) {
   Choice choice;
   if (refits.empty()) {
     return choice;
@@ -191,11 +181,11 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
   const std::vector<std::size_t> contenders = without_repeated_numbers(
-      stage, refits, without_flawed(stage, refits, data, places, options, choice), data, options, choice);
+      stage, refits, without_flawed(stage, refits, data, places, policy, choice), data, policy, choice);
   if (contenders.empty()) {
     return choice;
   }
-  std::vector<std::size_t> near = near_best(refits, contenders, data, places, options);
+  std::vector<std::size_t> near = near_best(refits, contenders, data, places, policy);
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
     if (is_near || is_of_family(refits[i], refits[contenders.front()], places)) {
@@ -205,14 +195,14 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
     choice.objections[i] =
-        objection(stage, refits[i], is_near ? choice.share : choice.shares[i], data, options);
+        objection(stage, refits[i], is_near ? choice.share : choice.shares[i], data, policy);
   }
   std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
     return complexity(refits[a]) < complexity(refits[b]);
   });
-  choice.named = first_to_name(near, refits, choice.objections, data, options);
+  choice.named = first_to_name(near, refits, choice.objections, data, policy);
   if (choice.named >= 0) {
-    choice.rivals = rivals_of(static_cast<std::size_t>(choice.named), refits, contenders, data, options);
+    choice.rivals = rivals_of(static_cast<std::size_t>(choice.named), refits, contenders, data, policy);
   }
   return choice;
 }

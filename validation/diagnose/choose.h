@@ -8,9 +8,6 @@
 
 namespace plumbline::validation {
 
-/// Share of the resamples in which a law must be better to be a rival.
-constexpr double kFair = 0.05;
-
 struct Choice {
   int named = -1;                       ///< index of the refit; -1: something speaks against each of the best
   double share = 0.0;                   ///< of the resamples that choose it, its family there, or one as good
@@ -23,7 +20,6 @@ struct Choice {
 /// fitted parameters is named, of equally many the one with the fewest constants, if nothing speaks against
 /// it. Better in nearly all resamples counts for more among equally many parameters, and at the floor; above
 /// it a law that contains another is not preferred to it for an immaterial gain.
-Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data,
-              const DiagnoseOptions& options);
+Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data, const Policy& policy);
 
 }  // namespace plumbline::validation

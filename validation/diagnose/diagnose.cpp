@@ -22,22 +22,22 @@ namespace {
 
 /// On whole windows as far as the model can be followed there.
 Followed diagnose_whole(const model::Model& model, const effects::Catalogue& catalogue, Followed followed,
-                        const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
-  Diagnoser diagnoser(catalogue, followed, options, progress);
+                        const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
+  Diagnoser diagnoser(catalogue, followed, policy, progress);
   diagnoser.run(model, diagnosis);
   if (diagnosis.verdict == Verdict::unexplained) {
-    look_for_pair(diagnoser.first(), catalogue, followed.data, options, progress, diagnosis);
+    look_for_pair(diagnoser.first(), catalogue, followed.data, policy, progress, diagnosis);
   }
   return followed;
 }
 
 Followed diagnose_windows(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
-                          const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+                          const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   const Followed followed = follow(model, data);
   return is_whole(followed)
-             ? diagnose_whole(model, catalogue, followed, options, progress, diagnosis)
-             : diagnose_by_segments(model, catalogue, data, followed, options, progress, diagnosis);
+             ? diagnose_whole(model, catalogue, followed, policy, progress, diagnosis)
+             : diagnose_by_segments(model, catalogue, data, followed, policy, progress, diagnosis);
 }
 
 /// Fitted values of what is named.
@@ -50,7 +50,7 @@ std::size_t named_values(const Diagnosis& diagnosis) {
 }
 
 /// What is said of all windows, where candidates were tried on some.
-void finish(const Data& data, const Followed& tried, const Data& some, const DiagnoseOptions& options,
+void finish(const Data& data, const Followed& tried, const Data& some, const Policy& policy,
             const Progress& progress, Diagnosis& diagnosis) {
   const bool is_some = some.windows.size() < data.windows.size();
   const Followed followed =
@@ -59,14 +59,14 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
   diagnosis.windows = data.segments(tried.length).windows.size();
   diagnosis.cut_windows = not_followed(data, followed);
   if (is_some) {
-    rescore(all, progress, diagnosis);
+    rescore(all, policy, progress, diagnosis);
   }
   if (diagnosis.ladder.front().length >=
       diagnosis.ladder.back().length) {  // else they have been tried without
-    drop_superfluous(all, options, progress, diagnosis);
+    drop_superfluous(all, policy, progress, diagnosis);
   }
   const bool is_answer =
-      !diagnosis.accepted.empty() && is_below(options.finished, diagnosis.final_stage.estimate, all);
+      !diagnosis.accepted.empty() && is_below(policy.finished, diagnosis.final_stage.estimate, all);
   // Far above the floor each of the refits takes long, and says little of many values.
   constexpr std::size_t kFew = 2;
   const bool is_held =
@@ -82,7 +82,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Dia
     set_values(diagnosis.final_stage, all, diagnosis.accepted);
   }
   compare_rungs(data, progress, diagnosis);
-  conclude(all, options, diagnosis);
+  conclude(all, policy, diagnosis);
   // What could not be followed has not been explained.
   if (diagnosis.verdict == Verdict::nothing_missing && diagnosis.cut_windows > most_lost(diagnosis.windows)) {
     diagnosis.verdict = Verdict::unexplained;
@@ -104,7 +104,7 @@ std::string to_string(Verdict verdict) {
 }
 
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
-                   const DiagnoseOptions& options, const Progress& progress) {
+                   const Policy& policy, const Progress& progress) {
   if (!data.has(Role::train)) {
     throw InputError("found no trial with role: train, expected at least one");
   }
@@ -113,18 +113,18 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   if (!kept.kept) {
     kept.kept = std::make_shared<KeptResults>();  // some work is asked for in more than one place
   }
-  const Data some = kept.thinned(options.windows);
+  const Data some = kept.thinned(policy.windows);
   try {
     const Followed tried =
-        diagnose_windows(with_zero_errors(model, kept), catalogue, some, options, progress, diagnosis);
-    finish(kept, tried, some, options, progress, diagnosis);
+        diagnose_windows(with_zero_errors(model, kept), catalogue, some, policy, progress, diagnosis);
+    finish(kept, tried, some, policy, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
     diagnosis.test_before = test_error(model, data);
     diagnosis.test_after = test_error(fitted_model(diagnosis.final_stage), data);
   } catch (const Stopped&) {
     diagnosis.interrupted = true;
     if (!diagnosis.ladder.empty()) {
-      conclude(kept, options, diagnosis);
+      conclude(kept, policy, diagnosis);
     }
   }
   return diagnosis;

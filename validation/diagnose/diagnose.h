@@ -6,33 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "validation/diagnose/policy.h"
 #include "validation/diagnose/screen.h"
 #include "validation/predict/deviations.h"
 #include "validation/predict/lost_windows.h"
 
 namespace plumbline::validation {
-
-struct DiagnoseOptions {
-  int most_effects = 4;          ///< rounds of acceptance
-  int most_as_stated = 1;        ///< rounds with the model's own numbers exactly as stated
-  double evidence = 100.0;       ///< least odds with which the stated numbers are believed, or given up
-  int refits = 8;                ///< candidates that are refitted in each round
-  double material = 0.05;        ///< least relative fall of the held-out error
-  double simpler = 0.02;         ///< relative rise of the error at which a simpler law is still preferred
-  double stable = 0.7;           ///< least share of resamples that choose the effect (or a rival)
-  double at_floor = 1.05;        ///< error at which nothing is left to explain
-  double nothing = 1.1;          ///< error below which nothing is missing where nothing was named
-  double finished = 1.2;         ///< error below which what was named is an answer
-  double consistent = 0.35;      ///< relative disagreement of a parameter between train and held-out
-  double far = 3.0;              ///< error from which more is missing than an effect
-  double consistent_far = 1.0;   ///< the same disagreement there: the held-out motion must not ask for none
-  double hopeless = 20.0;        ///< error after several effects above which no pair is looked for
-  double parameter_width = 3.0;  ///< stated standard deviations that the model's own parameters may move
-  bool dear = true;              ///< far above the floor also laws that take many times the model's work
-  std::size_t windows = 24;      ///< of each role on which candidates are tried; results are for all windows
-  int resamples = 400;
-  unsigned seed = 1;
-};
 
 struct ParameterValue {
   std::string name, unit;
@@ -135,6 +114,6 @@ struct Diagnosis {
 /// windows. Throws InputError when there is no train trial. An interruption (Ctrl-C) returns what is
 /// finished.
 Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
-                   const DiagnoseOptions& options, const Progress& progress);
+                   const Policy& policy, const Progress& progress);
 
 }  // namespace plumbline::validation

@@ -27,13 +27,13 @@ double length_of(const Followed& followed) {
 
 }  // namespace
 
-Diagnoser::Diagnoser(const effects::Catalogue& catalogue, const Followed& followed,
-                     const DiagnoseOptions& options, const Progress& progress)
+Diagnoser::Diagnoser(const effects::Catalogue& catalogue, const Followed& followed, const Policy& policy,
+                     const Progress& progress)
     : catalogue_(catalogue),
       data_(followed.data),
       x0_(followed.x0),
       length_(length_of(followed)),
-      options_(options),
+      policy_(policy),
       progress_(progress) {}
 
 void Diagnoser::run(const model::Model& model, Diagnosis& diagnosis) {
@@ -41,7 +41,7 @@ void Diagnoser::run(const model::Model& model, Diagnosis& diagnosis) {
   const Rung given = diagnosis.ladder.front();
   const Stage open = opened(given.stage);
   if (open.parameters.empty()) {
-    look(options_.most_effects, diagnosis);
+    look(policy_.most_effects, diagnosis);
   } else {
     look_with_own_numbers(given, {"model parameters fitted", fit_own(open), length_}, diagnosis);
   }
@@ -66,7 +66,7 @@ bool Diagnoser::further_on(bool complete, bool with_numbers, Diagnosis& diagnosi
   const Stage& before = diagnosis.final_stage;
   take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
        diagnosis);
-  const bool at_floor = is_below(options_.at_floor, diagnosis.final_stage.estimate, data_);
+  const bool at_floor = is_below(policy_.at_floor, diagnosis.final_stage.estimate, data_);
   const bool helped = !(at_floor && complete) && with_numbers && open_own_numbers(diagnosis);
   if (diagnosis.accepted.empty()) {
     diagnosis.bare_rungs = diagnosis.ladder.size();
@@ -75,7 +75,7 @@ bool Diagnoser::further_on(bool complete, bool with_numbers, Diagnosis& diagnosi
 }
 
 void Diagnoser::look_further(bool in_any_case, Diagnosis& diagnosis) {
-  look(options_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis, in_any_case);
+  look(policy_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis, in_any_case);
 }
 
 void Diagnoser::start(const model::Model& model, Diagnosis& diagnosis) {
@@ -89,12 +89,12 @@ void Diagnoser::start(const model::Model& model, Diagnosis& diagnosis) {
 }
 
 Stage Diagnoser::opened(const Stage& given) const {
-  return is_below(options_.at_floor, given.estimate, data_)
+  return is_below(policy_.at_floor, given.estimate, data_)
              ? given
-             : with_open_numbers(given, 0, options_.parameter_width, data_);
+             : with_open_numbers(given, 0, policy_.parameter_width, data_);
 }
 
-double Diagnoser::enough() const { return std::isinf(length_) ? options_.at_floor : options_.finished; }
+double Diagnoser::enough() const { return std::isinf(length_) ? policy_.at_floor : policy_.finished; }
 
 void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
   for (int round = 0; round < most; ++round) {
@@ -104,8 +104,8 @@ void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
       break;
     }
   }
-  revise_rivals(catalogue_, data_, options_, progress_, diagnosis);
-  conclude(data_, options_, diagnosis);
+  revise_rivals(catalogue_, data_, policy_, progress_, diagnosis);
+  conclude(data_, policy_, diagnosis);
 }
 
 void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
@@ -118,31 +118,30 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 }
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
-  constexpr double kWorse = 1.2;
-  if (judged(fitted.stage.estimate, data_) > kWorse * judged(given.stage.estimate, data_)) {
-    look(options_.most_effects,
+  if (judged(fitted.stage.estimate, data_) > (1.0 + policy_.harmful) * judged(given.stage.estimate, data_)) {
+    look(policy_.most_effects,
          diagnosis);  // values that do not hold on the other motion are none of the robot
     return;
   }
   if (!explains_much(given, fitted)) {
-    look(options_.most_as_stated, diagnosis);
+    look(policy_.most_as_stated, diagnosis);
     if (!speaks_for_stated(diagnosis)) {
       restart({given, fitted}, diagnosis);
-      look(options_.most_effects, diagnosis);
+      look(policy_.most_effects, diagnosis);
     }
     return;
   }
   restart({given, fitted}, diagnosis);
-  look(options_.most_effects, diagnosis);
+  look(policy_.most_effects, diagnosis);
   if (diagnosis.verdict == Verdict::unexplained ||
-      (diagnosis.verdict == Verdict::missing && evidence(diagnosis) < -std::log(options_.evidence))) {
+      (diagnosis.verdict == Verdict::missing && evidence(diagnosis) < -std::log(policy_.evidence))) {
     return;
   }
   Tried first = std::move(first_);
   Diagnosis stated;
   stated.lost = diagnosis.lost;
   restart({given}, stated);
-  look(options_.most_as_stated, stated);
+  look(policy_.most_as_stated, stated);
   if (speaks_for_stated(stated)) {
     diagnosis = std::move(stated);
   } else {
@@ -151,31 +150,29 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
 }
 
 bool Diagnoser::explains_much(const Rung& given, const Rung& fitted) const {
-  constexpr double kLeft = 0.5;
   const double before = judged(given.stage.estimate, data_);
   const double after = judged(fitted.stage.estimate, data_);
-  return before > options_.finished && after * after - 1.0 < kLeft * (before * before - 1.0);
+  return before > policy_.finished && after * after - 1.0 < policy_.own_share * (before * before - 1.0);
 }
 
 double Diagnoser::evidence(const Diagnosis& diagnosis) const {
-  return evidence_for_stated(diagnosis.final_stage, data_, options_.parameter_width);
+  return evidence_for_stated(diagnosis.final_stage, data_, policy_.parameter_width);
 }
 
 bool Diagnoser::speaks_for_stated(const Diagnosis& diagnosis) const {
   return diagnosis.verdict == Verdict::nothing_missing ||
-         (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(options_.evidence));
+         (diagnosis.verdict == Verdict::missing && evidence(diagnosis) > std::log(policy_.evidence));
 }
 
 bool Diagnoser::open_own_numbers(Diagnosis& diagnosis) const {
   const Stage& stage = diagnosis.final_stage;
-  const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), options_.parameter_width, data_);
+  const Stage open = with_open_numbers(stage, diagnosis.accepted.size(), policy_.parameter_width, data_);
   // Twice: what is judged is the error, what is promised its square.
-  if (open.parameters.size() == stage.parameters.size() || !promises_much(open, 2.0 * options_.simpler)) {
+  if (open.parameters.size() == stage.parameters.size() || !promises_much(open, 2.0 * policy_.simpler)) {
     return false;
   }
   const Stage fitted = fit_own(open);
-  const bool helps =
-      judged(fitted.estimate, data_) < (1.0 - options_.simpler) * judged(stage.estimate, data_);
+  const bool helps = judged(fitted.estimate, data_) < (1.0 - policy_.simpler) * judged(stage.estimate, data_);
   if (helps) {
     take("model parameters fitted", fitted, diagnosis);
   }
@@ -194,12 +191,11 @@ void Diagnoser::replace_last(const Stage& stage, Diagnosis& diagnosis) const {
 }
 
 bool Diagnoser::promises_much(const Stage& open, double least) const {
-  constexpr double kMuch = 0.25;
   const LinearProblem problem =
       linear_problem(open.model, open.parameters, values_of(open.model, open.parameters), data_,
                      data_.all_windows(), open.estimate.x0);
   const double before = problem.train.sse / problem.train.samples;
-  return before - promise_of(problem).train > std::max(kMuch * (before - 1.0), least * before);
+  return before - promise_of(problem).train > std::max(policy_.promised * (before - 1.0), least * before);
 }
 
 Stage Diagnoser::fit_own(const Stage& open) const {
@@ -219,24 +215,28 @@ std::vector<std::string> Diagnoser::names_of(const std::vector<Finding>& finding
 
 bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   // What is named already comes first: where it leaves much, the rest is described rather than searched for.
-  DiagnoseOptions options = options_;
-  options.dear = diagnosis.accepted.empty();
+  Policy policy = policy_;
+  policy.dear = diagnosis.accepted.empty();
+  // Far above the floor many laws would each take a little off what is left.
+  const bool is_far = !is_below(policy_.hopeless, diagnosis.final_stage.estimate, data_);
+  if (is_far && !diagnosis.accepted.empty()) {
+    policy.material = std::max(policy.material, policy_.material_far);
+  }
   Tried tried =
       screen_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_, progress_);
   // Far above the floor the commonest truth comes first: it may save the refits of all single effects.
-  const bool is_far = !is_below(options_.hopeless, diagnosis.final_stage.estimate, data_);
   std::optional<Group> group;
   if (diagnosis.accepted.empty() && is_far) {
-    group = friction_everywhere(tried, data_, options_, progress_);
+    group = friction_everywhere(tried, data_, policy_, progress_);
   }
   if (!group) {
-    refit_candidates(data_, options, progress_, tried);
+    refit_candidates(data_, policy, progress_, tried);
   }
-  const Choice choice = choose(tried.stage, tried.refits, data_, options_);
-  const std::vector<RankRow> rows = ranking_of(tried, choice, data_, options_);
+  const Choice choice = choose(tried.stage, tried.refits, data_, policy);
+  const std::vector<RankRow> rows = ranking_of(tried, choice, data_, policy);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
   if (!group && diagnosis.accepted.empty()) {
-    group = friction_everywhere(tried, data_, options_, progress_);
+    group = friction_everywhere(tried, data_, policy_, progress_);
   }
   if (group) {
     accept_group(tried, *group, data_, diagnosis);

@@ -13,7 +13,7 @@ namespace plumbline::validation {
 /// What it is given must outlive it.
 class Diagnoser {
  public:
-  Diagnoser(const effects::Catalogue& catalogue, const Followed& followed, const DiagnoseOptions& options,
+  Diagnoser(const effects::Catalogue& catalogue, const Followed& followed, const Policy& policy,
             const Progress& progress);
   /// On whole windows, with the model's own numbers exactly as stated, and with them free within what is
   /// stated of them: the first where that gives an answer and the data do not speak for other numbers.
@@ -67,7 +67,7 @@ class Diagnoser {
   const Data& data_;
   const std::vector<Eigen::VectorXd>& x0_;  // where the windows begin; empty: to be searched
   double length_;
-  const DiagnoseOptions& options_;
+  const Policy& policy_;
   const Progress& progress_;
   Tried first_;
 };

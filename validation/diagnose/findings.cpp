@@ -45,7 +45,7 @@ std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
 }  // namespace
 
 std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const Data& data,
-                                const DiagnoseOptions& options) {
+                                const Policy& policy) {
   std::vector<RankRow> rows;
   std::vector<bool> done(tried.candidates.size(), false);
   const Role counts = data.has(Role::held_out) ? Role::held_out : Role::train;
@@ -60,7 +60,7 @@ std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const 
     row.refitted = true;
     row.remark = choice.objections[i];
     row.selected_share = choice.shares[i];
-    std::tie(row.judged_low, row.judged_high) = resampled_error(refit, counts, data, options);
+    std::tie(row.judged_low, row.judged_high) = resampled_error(refit, counts, data, policy);
     rows.push_back(row);
   }
   for (const Hypothesis& hypothesis : tried.hypotheses) {

@@ -10,7 +10,7 @@ namespace plumbline::validation {
 
 /// Candidates in order of promise, refitted ones first with what they reached and why they are not named.
 std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const Data& data,
-                                const DiagnoseOptions& options);
+                                const Policy& policy);
 
 std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& choice);
 

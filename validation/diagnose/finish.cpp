@@ -45,6 +45,31 @@ bool have_same_states(const Estimate& one, const Estimate& other) {
                     [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.size() == b.size(); });
 }
 
+/// The values of a stage; those that the rung before has, too, as they are there.
+Eigen::VectorXd as_before(const Stage& stage, Eigen::VectorXd theta, const Stage& before) {
+  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
+    for (std::size_t q = 0; q < before.parameters.size(); ++q) {
+      if (stage.parameters[p].label == before.parameters[q].label) {
+        theta[static_cast<Eigen::Index>(p)] = before.estimate.theta[static_cast<Eigen::Index>(q)];
+      }
+    }
+  }
+  return theta;
+}
+
+void take_better(Estimate other, Estimate& than) {
+  if (other.cost < than.cost) {
+    than = std::move(other);
+  }
+}
+
+/// The train error that `compare` would give of the stage with these values.
+double settled_anew(Stage stage, const Estimate& estimate, const Data& data) {
+  stage.estimate = estimate;
+  PredictorPool pool(fitted_model(stage), data);
+  return estimate_states(pool).scores.train;
+}
+
 /// Each finding's errors are those of the rung before its own and of its own.
 void set_errors_of_rungs(Diagnosis& diagnosis) {
   for (Finding& finding : diagnosis.accepted) {
@@ -60,6 +85,20 @@ void set_errors_of_rungs(Diagnosis& diagnosis) {
   }
 }
 
+/// The ladder without a finding: an effect that came last goes with its rung, and the rung before has the
+/// better of both searches.
+void take_back(const Finding& finding, const Stage& without, std::vector<Rung>& ladder) {
+  if (ladder.size() < 2 || ladder.back().name != "+ " + finding.label()) {
+    ladder.push_back({"- " + finding.label(), without, ladder.back().length});
+    return;
+  }
+  ladder.pop_back();
+  Stage& before = ladder.back().stage;
+  if (before.parameters.size() != without.parameters.size() || without.estimate.cost < before.estimate.cost) {
+    before = without;
+  }
+}
+
 }  // namespace
 
 void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
@@ -68,7 +107,7 @@ void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnos
   if (!are_whole) {
     return;
   }
-  for (Rung& rung : diagnosis.ladder) {
+  const auto compare = [&](Rung& rung) {
     progress("all windows for " + rung.name, 0.98);
     PredictorPool pool(fitted_model(rung.stage), all);
     try {
@@ -78,38 +117,55 @@ void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnos
     } catch (const std::runtime_error&) {
       rung.compared.reset();  // a window is lost with these values: the estimate's own error stands
     }
+  };
+  // Where the answer's windows settle anew as they did before, those of the rungs before it have, too.
+  constexpr double kSame = 0.01;
+  Rung& answer = diagnosis.ladder.back();
+  compare(answer);
+  const Scores& before = answer.stage.estimate.scores;
+  if (!answer.compared || std::abs(answer.compared->train - before.train) > kSame * before.train ||
+      std::abs(answer.compared->held_out - before.held_out) > kSame * before.held_out) {
+    std::for_each(diagnosis.ladder.begin(), diagnosis.ladder.end() - 1, compare);
   }
   set_errors_of_rungs(diagnosis);
 }
 
-void rescore(const Data& all, const Progress& progress, Diagnosis& diagnosis) {
+// Far above the floor many windows have several minima, and so has the sum of them: the answer's values are
+// sought from two beginnings, and the better is that which still is when its windows are settled anew.
+void rescore(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   const double length = diagnosis.ladder.back().length;
-  const Estimate* before = nullptr;
+  const Rung* before = nullptr;
   for (Rung& rung : diagnosis.ladder) {
     if (rung.length < length) {
       continue;
     }
     progress("all windows for " + rung.name, 0.9);
     PredictorPool pool(rung.stage.model, all);
-    const EstimateOptions options{12, 1e-5};  // what the data hardly tell moves last
+    const EstimateOptions search{12, 1e-5};  // what the data hardly tell moves last
     const Eigen::VectorXd theta = rung.stage.estimate.theta;
-    Estimate found = gauss_newton(pool, rung.stage.parameters, theta, {}, options);
-    // What the rung before explains, this one does: else windows have ended in a poorer minimum.
-    if (before != nullptr && found.scores.train > before->scores.train && have_same_states(*before, found)) {
-      Estimate other = gauss_newton(pool, rung.stage.parameters, theta, before->x0, options);
-      if (other.cost < found.cost) {
-        found = std::move(other);
+    Estimate found = gauss_newton(pool, rung.stage.parameters, theta, {}, search);
+    if (before != nullptr) {
+      const Estimate& there = before->stage.estimate;
+      // What the rung before explains, this one does: else windows have ended in a poorer minimum.
+      if (found.scores.train > there.scores.train && have_same_states(there, found)) {
+        take_better(gauss_newton(pool, rung.stage.parameters, theta, there.x0, search), found);
+      }
+      if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all)) {
+        const Eigen::VectorXd other = as_before(rung.stage, theta, before->stage);
+        const Estimate second = gauss_newton(pool, rung.stage.parameters, other, {}, search);
+        if (settled_anew(rung.stage, second, all) < settled_anew(rung.stage, found, all)) {
+          found = second;
+        }
       }
     }
     rung.stage.estimate = std::move(found);
-    before = &rung.stage.estimate;
+    before = &rung;
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;
   set_errors_of_rungs(diagnosis);
 }
 
-void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Progress& progress,
-                      Diagnosis& diagnosis) {
+void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   std::vector<Finding>& accepted = diagnosis.accepted;
   const auto without = [&](std::size_t i) {
     const Stage& stage = diagnosis.final_stage;
@@ -118,14 +174,14 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
     return unless_lost(without_effect(stage, effect), all);
   };
   const auto drop = [&](std::size_t i, const Stage& stage) {
-    diagnosis.ladder.push_back({"- " + accepted[i].label(), stage, diagnosis.ladder.back().length});
+    take_back(accepted[i], stage, diagnosis.ladder);
     accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
-    diagnosis.final_stage = stage;
+    diagnosis.final_stage = diagnosis.ladder.back().stage;
   };
   // What helped on the windows on which it was tried, and harms on all, the last first.
   for (std::size_t i = accepted.size(); accepted.size() > 1 && i-- > 0;) {
     const Stage stage = without(i);
-    if (judged(stage.estimate, all) < (1.0 - options.simpler) * judged(diagnosis.final_stage.estimate, all)) {
+    if (judged(stage.estimate, all) < (1.0 - policy.simpler) * judged(diagnosis.final_stage.estimate, all)) {
       drop(i, stage);
     }
   }
@@ -137,7 +193,7 @@ void drop_superfluous(const Data& all, const DiagnoseOptions& options, const Pro
     const double rise = std::max(judged(stage.estimate, all) / judged_with_all,
                                  stage.estimate.scores.train / train_with_all) -
                         1.0;
-    if (rise < options.material) {
+    if (rise < policy.material) {
       drop(i, stage);
     } else {
       ++i;
@@ -201,11 +257,11 @@ bool take_open_values(const Data& all, Diagnosis& diagnosis) {
   return true;
 }
 
-void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagnosis) {
+void conclude(const Data& data, const Policy& policy, Diagnosis& diagnosis) {
   const double after = judged(diagnosis.final_stage.estimate, data);
   if (diagnosis.accepted.empty()) {
     // The first rungs may be of shorter segments of the windows, on which nothing was missing yet.
-    diagnosis.verdict = after < options.nothing ? Verdict::nothing_missing : Verdict::unexplained;
+    diagnosis.verdict = after < policy.nothing ? Verdict::nothing_missing : Verdict::unexplained;
     diagnosis.unexplained_share = diagnosis.verdict == Verdict::unexplained ? 1.0 : 0.0;
     return;
   }
@@ -213,7 +269,7 @@ void conclude(const Data& data, const DiagnoseOptions& options, Diagnosis& diagn
   const double excess = before * before - 1.0;
   diagnosis.unexplained_share = excess > 0.0 ? std::clamp((after * after - 1.0) / excess, 0.0, 1.0) : 0.0;
   // Names that leave the error far above the floor are a part of the answer at best.
-  diagnosis.verdict = after < options.finished ? Verdict::missing : Verdict::unexplained;
+  diagnosis.verdict = after < policy.finished ? Verdict::missing : Verdict::unexplained;
 }
 
 }  // namespace plumbline::validation

@@ -78,8 +78,8 @@ Stage fitted(Stage all, const Data& data) {
 }
 
 /// Those of the last effects whose strength the data tell from nothing by two deviations.
-std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& candidates, const Data& data) {
-  constexpr double kDeviations = 2.0;
+std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& candidates, const Data& data,
+                            const Policy& policy) {
   PredictorPool pool(all.model, data);
   const Eigen::VectorXd deviations =
       precision_of(pool, data.windows_of(Role::train), all.parameters, all.estimate).deviations;
@@ -90,7 +90,7 @@ std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& cand
     const auto i = static_cast<Eigen::Index>(p);
     if (parameter.id.effect >= first) {
       const auto candidate = static_cast<std::size_t>(parameter.id.effect - first);
-      is_told[candidate] = all.estimate.theta[i] - parameter.lower > kDeviations * deviations[i];
+      is_told[candidate] = all.estimate.theta[i] - parameter.lower > policy.told * deviations[i];
     }
   }
   std::vector<Candidate> kept;
@@ -109,14 +109,14 @@ Refit as_refit(const Stage& stage) {
   return refit;
 }
 
-std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
+std::optional<Group> fitted_group(const Tried& tried, const Data& data, const Policy& policy) {
   constexpr std::size_t kLeast = 2;
   std::vector<Candidate> candidates;
   std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
                is_plain_friction);
   candidates = at_independent_places(tried.stage.model, std::move(candidates));
   Stage all = fitted(with_all(tried.stage, candidates), data);
-  const std::vector<Candidate> kept = told(all, candidates, data);
+  const std::vector<Candidate> kept = told(all, candidates, data, policy);
   if (kept.size() < kLeast) {
     return {};
   }
@@ -127,9 +127,8 @@ std::optional<Group> fitted_group(const Tried& tried, const Data& data) {
 }
 
 /// Does it leave so little that no single effect needs to be refitted beside it?
-bool is_ahead_of_promises(const Refit& group, const Tried& tried) {
-  constexpr double kLeft = 0.25;
-  double promised = kLeft * tried.stage.estimate.predicted.scores.square();
+bool is_ahead_of_promises(const Refit& group, const Tried& tried, const Policy& policy) {
+  double promised = policy.group_rest * tried.stage.estimate.predicted.scores.square();
   for (const Hypothesis& hypothesis : tried.hypotheses) {
     promised = std::min(promised, hypothesis.promised());
   }
@@ -138,29 +137,29 @@ bool is_ahead_of_promises(const Refit& group, const Tried& tried) {
 
 }  // namespace
 
-std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const Policy& policy,
                                          const Progress& progress) {
-  constexpr double kBetter = 0.8;
   constexpr std::size_t kLeast = 2;
   const auto count = std::count_if(tried.candidates.begin(), tried.candidates.end(), is_plain_friction);
   const bool is_answered =
-      !tried.refits.empty() && is_below(options.finished, tried.refits.front().estimate, data);
+      !tried.refits.empty() && is_below(policy.finished, tried.refits.front().estimate, data);
   if (static_cast<std::size_t>(count) < kLeast || is_answered) {
     return {};
   }
   progress("friction at every joint", 0.97);
   try {
-    std::optional<Group> group = fitted_group(tried, data);
+    std::optional<Group> group = fitted_group(tried, data, policy);
     if (!group) {
       return {};
     }
     const Refit one = as_refit(group->stage);
     const Refit best = tried.refits.empty() ? as_refit(tried.stage) : tried.refits.front();
-    group->share = share_better(one, best, data, options);
-    const bool is_better = judged(one.estimate, data) < kBetter * judged(best.estimate, data) &&
-                           judged(one.estimate, data) < kBetter * judged(tried.stage.estimate, data);
-    const bool is_ahead = !tried.refits.empty() || is_ahead_of_promises(one, tried);
-    return is_better && is_ahead && group->share > options.stable ? group : std::nullopt;
+    group->share = share_better(one, best, data, policy);
+    const bool is_better =
+        judged(one.estimate, data) < policy.group_better * judged(best.estimate, data) &&
+        judged(one.estimate, data) < policy.group_better * judged(tried.stage.estimate, data);
+    const bool is_ahead = !tried.refits.empty() || is_ahead_of_promises(one, tried, policy);
+    return is_better && is_ahead && group->share > policy.stable ? group : std::nullopt;
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {

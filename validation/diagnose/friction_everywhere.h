@@ -21,7 +21,7 @@ struct Group {
 /// are taken out, and the others fitted anew. Nothing where fewer than two are left, or where the error that
 /// counts is not at least a fifth below that of the best single effect. Where none was refitted yet it must
 /// take three quarters of the squared error, and leave less than any single effect promises.
-std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const DiagnoseOptions& options,
+std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const Policy& policy,
                                          const Progress& progress);
 
 }  // namespace plumbline::validation

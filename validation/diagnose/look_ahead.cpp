@@ -12,10 +12,7 @@
 namespace plumbline::validation {
 namespace {
 
-constexpr std::size_t kFirsts = 3;       // single refits that are continued
-constexpr int kSeconds = 4;              // refits after each of them
-constexpr std::size_t kLinearPairs = 5;  // refits of pairs that were linearised together
-constexpr std::size_t kPairs = 6;        // that are returned
+constexpr std::size_t kPairs = 6;  // that are returned
 
 /// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
 /// would be stiffer than anything that the samples could show, and cost as much as all others together.
@@ -53,24 +50,24 @@ void sort_and_join(std::vector<Pair>& pairs) {
 }
 
 /// It explains something alone. What follows one that does not would be what follows the stage itself.
-bool is_material(const Refit& refit, const Stage& stage, const DiagnoseOptions& options) {
-  const double kept = 1.0 - options.material;
+bool is_material(const Refit& refit, const Stage& stage, const Policy& policy) {
+  const double kept = 1.0 - policy.material;
   return refit.square() < kept * kept * stage.estimate.predicted.scores.square();
 }
 
 /// After a single refit whatever helps it most, where it promises to come near the floor: a pair is an answer
 /// only there.
 void add_followers(const Tried& tried, const Refit& first, const effects::Catalogue& catalogue,
-                   const Data& data, const DiagnoseOptions& options, const Progress& progress,
+                   const Data& data, const Policy& policy, const Progress& progress,
                    std::vector<Pair>& pairs) {
   const Candidate& candidate = tried.candidates[static_cast<std::size_t>(first.candidate)];
   const auto named = [&](const std::string& what, double done) {
     progress("with " + candidate.label() + ": " + what, done);
   };
-  DiagnoseOptions fewer = options;
-  fewer.refits = kSeconds;
+  Policy fewer = policy;
+  fewer.refits = policy.seconds;
   Tried next = screen_candidates(after(first), catalogue, {candidate.label()}, data, named);
-  const double near = 2.0 * options.far * options.far;  // of train and held-out together
+  const double near = 2.0 * policy.far * policy.far;  // of train and held-out together
   if (next.hypotheses.empty() || next.hypotheses.front().promised() > near) {
     return;
   }
@@ -119,22 +116,21 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
   return tried;
 }
 
-void refit_candidates(const Data& data, const DiagnoseOptions& options, const Progress& progress,
-                      Tried& tried) {
+void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
   tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, without_stiffness(tried.stage, data),
-                       options, progress, &tried.failed);
+                       policy, progress, &tried.failed);
 }
 
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
-                     const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
+                     const std::vector<std::string>& taken, const Data& data, const Policy& policy,
                      const Progress& progress) {
   Tried tried = screen_candidates(stage, catalogue, taken, data, progress);
-  refit_candidates(data, options, progress, tried);
+  refit_candidates(data, policy, progress, tried);
   return tried;
 }
 
 std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catalogue, const Data& data,
-                             const DiagnoseOptions& options, const Progress& progress) {
+                             const Policy& policy, const Progress& progress) {
   std::vector<Pair> pairs;
   std::vector<Hypothesis> tangents;
   for (const Hypothesis& hypothesis : tried.hypotheses) {
@@ -144,8 +140,8 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
   }
   progress("pairs of " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   const Data quick = without_stiffness(tried.stage, data);
-  for (const PairHypothesis& promise :
-       Tangents(tried.stage, tried.candidates, tangents, quick).pairs(kLinearPairs)) {
+  for (const PairHypothesis& promise : Tangents(tried.stage, tried.candidates, tangents, quick)
+                                           .pairs(static_cast<std::size_t>(policy.linear_pairs))) {
     const Candidate& first = tried.candidates[static_cast<std::size_t>(promise.first.candidate)];
     const Candidate& second = tried.candidates[static_cast<std::size_t>(promise.second.candidate)];
     progress("refitting " + first.label() + " with " + second.label(), 0.5);
@@ -157,9 +153,9 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
       continue;  // it cannot be integrated: no explanation of these trials
     }
   }
-  for (std::size_t r = 0; r < std::min(kFirsts, tried.refits.size()); ++r) {
-    if (is_material(tried.refits[r], tried.stage, options)) {
-      add_followers(tried, tried.refits[r], catalogue, data, options, progress, pairs);
+  for (std::size_t r = 0; r < std::min(static_cast<std::size_t>(policy.firsts), tried.refits.size()); ++r) {
+    if (is_material(tried.refits[r], tried.stage, policy)) {
+      add_followers(tried, tried.refits[r], catalogue, data, policy, progress, pairs);
     }
   }
   sort_and_join(pairs);
@@ -167,13 +163,13 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
 }
 
 std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs, const Data& data,
-                             const DiagnoseOptions& options, const Progress& progress) {
+                             const Policy& policy, const Progress& progress) {
   constexpr std::size_t kBest = 3;
   std::vector<Refit> halves;
   std::set<std::string> seen;
   for (std::size_t i = 0; i < std::min(kBest, pairs.size()); ++i) {
     const Pair& pair = pairs[i];
-    if (!is_below(options.finished, pair.refit.estimate, data)) {
+    if (!is_below(policy.finished, pair.refit.estimate, data)) {
       continue;
     }
     for (const Candidate* half : {&pair.first, &pair.second}) {
@@ -185,8 +181,8 @@ std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs,
       progress("refitting " + half->label() + " alone", 0.9);
       Refit alone = refit_of(fitted_anew(without_effect(after(pair.refit), other), data), tried.stage);
       alone.candidate = *candidate;
-      const double kept = (1.0 - options.material) * judged(alone.estimate, data);
-      if (is_below(options.finished, alone.estimate, data) && kept <= judged(pair.refit.estimate, data)) {
+      const double kept = (1.0 - policy.material) * judged(alone.estimate, data);
+      if (is_below(policy.finished, alone.estimate, data) && kept <= judged(pair.refit.estimate, data)) {
         halves.push_back(std::move(alone));
       }
     }

@@ -28,24 +28,23 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
                         const std::vector<std::string>& taken, const Data& data, const Progress& progress);
 
 /// The best of what was screened, refitted.
-void refit_candidates(const Data& data, const DiagnoseOptions& options, const Progress& progress,
-                      Tried& tried);
+void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried);
 
 /// Both.
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
-                     const std::vector<std::string>& taken, const Data& data, const DiagnoseOptions& options,
+                     const std::vector<std::string>& taken, const Data& data, const Policy& policy,
                      const Progress& progress);
 
 /// The best pairs from where `tried` began, best first, each pair once: after each of the best single
 /// refits whatever helps it most, and of the laws that can be linearised together the pairs that promise
 /// most.
 std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catalogue, const Data& data,
-                             const DiagnoseOptions& options, const Progress& progress);
+                             const Policy& policy, const Progress& progress);
 
 /// Where the best pairs leave nothing, either half of them by itself, refitted from its values in the pair:
 /// those that leave nothing alone, and not materially more than the pair. The other half then only helped the
 /// search out of a poor minimum.
 std::vector<Refit> halves_of(const Tried& tried, const std::vector<Pair>& pairs, const Data& data,
-                             const DiagnoseOptions& options, const Progress& progress);
+                             const Policy& policy, const Progress& progress);
 
 }  // namespace plumbline::validation

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "validation/diagnose/family.h"
 #include "validation/diagnose/judged.h"
 #include "validation/predict/deviations.h"
 
@@ -79,13 +80,12 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
 /// strength that trades with a torque constant is open, the effect need not be. Where the model cannot be
 /// integrated it is not known: no.
 bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
-               const DiagnoseOptions& options) {
-  constexpr double kNear = 0.1;
+               const Policy& policy) {
   const effects::Scale scale = refit.extended.parameters[parameter].scale;
   const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
   const double nothing = to_search(scale, null);
-  const double near = from_search(scale, nothing + kNear * (to_search(scale, value) - nothing));
-  const double most = 1.0 + options.material;
+  const double near = from_search(scale, nothing + policy.near_nothing * (to_search(scale, value) - nothing));
+  const double most = 1.0 + policy.material;
   try {
     return square_with(near, parameter, refit, data) >
            most * most * square_with(value, parameter, refit, data);
@@ -100,8 +100,7 @@ bool is_needed(std::size_t parameter, double null, const Refit& refit, const Dat
 /// without a gap, a stretch without a compliance. Then something else about the law must have helped. Its
 /// deviation alone does not show this: that is of a straight line, along which a stiffness becomes nothing
 /// while the rest does not go to where the same force would ask for it.
-std::string undecided(const Refit& refit, const Data& data, const DiagnoseOptions& options) {
-  constexpr double kDeviations = 2.0;
+std::string undecided(const Refit& refit, const Data& data, const Policy& policy) {
   PredictorPool pool(refit.extended.model, data);
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
   Estimate at = refit.estimate;
@@ -119,22 +118,39 @@ std::string undecided(const Refit& refit, const Data& data, const DiagnoseOption
     const double distance = std::abs(to_search(scale, values[own]) - to_search(scale, null));
     const double deviation =
         deviations[static_cast<Eigen::Index>(p)] / std::abs(search_slope(scale, values[own]));
-    if (use.law->is_null(without.data()) && distance < kDeviations * deviation &&
-        !is_needed(p, null, refit, data, options)) {
+    if (use.law->is_null(without.data()) && distance < policy.told * deviation &&
+        !is_needed(p, null, refit, data, policy)) {
       return parameters[p].label;
     }
   }
   return "";
 }
 
-/// A parameter of an added effect that is on its bound, if it is the only one or the stiffness of a drive;
-/// empty when there is none.
+/// Is the parameter the level of a dry friction that has a rise at low speed, too (Stribeck, LuGre)? Without
+/// a level it would leave the surfaces without any friction once they slide, unless another law of the model
+/// has it.
+bool is_level_below_rise(const FreeParameter& one, const Refit& refit) {
+  const std::vector<model::EffectUse>& effects = refit.extended.model.effects;
+  const model::EffectUse& use = effects[static_cast<std::size_t>(one.id.effect)];
+  const std::vector<effects::Parameter>& all = use.law->declaration().parameters;
+  const auto is_rise = [](const effects::Parameter& other) { return other.name == "rise"; };
+  const auto is_beside = [&](const model::EffectUse& other) {
+    return &other != &use && other.at == use.at && is_friction(*other.law);
+  };
+  return all[static_cast<std::size_t>(one.id.parameter)].name == "level" &&
+         std::any_of(all.begin(), all.end(), is_rise) &&
+         std::none_of(effects.begin(), effects.end(), is_beside);
+}
+
+/// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive or
+/// the level of a dry friction; empty when there is none.
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {
     const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
     for (std::size_t p = 0; p < own.parameters.size(); ++p) {
       const FreeParameter& one = own.parameters[p];
-      if ((own.parameters.size() == 1 || one.scale == effects::Scale::reciprocal) &&
+      if ((own.parameters.size() == 1 || one.scale == effects::Scale::reciprocal ||
+           is_level_below_rise(one, refit)) &&
           on_bound(one, own.theta[static_cast<Eigen::Index>(p)])) {
         return one.label;
       }
@@ -159,19 +175,19 @@ std::string unless_unsteady(const Check& check) {
 
 // The held-out motion may be the one that decides: at the values that serve all windows, of those that the
 // train windows leave open.
-std::string flaw(const Refit& refit, const Data& data, const DiagnoseOptions& options) {
+std::string flaw(const Refit& refit, const Data& data, const Policy& policy) {
   const std::string bound = unphysical(refit);
   if (!bound.empty()) {
     return "unphysical: " + bound + " is at its bound";
   }
   return unless_unsteady([&]() -> std::string {
-    const std::string open = undecided(refit, data, options);
+    const std::string open = undecided(refit, data, policy);
     return open.empty() ? "" : "undecided: " + open + " cannot be told from no effect";
   });
 }
 
 std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
-                      const DiagnoseOptions& options) {
+                      const Policy& policy) {
   const Scores& before = stage.estimate.predicted.scores;
   const Scores& after = refit.estimate.predicted.scores;
   const bool judged = data.has(Role::held_out);
@@ -179,19 +195,19 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
   const auto percent = [](double value) {
     return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %";
   };
-  if (fall < options.material) {
+  if (fall < policy.material) {
     const std::string error = judged ? "held-out error" : "train error";
     return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
   }
-  if (share < options.stable) {
+  if (share < policy.stable) {
     return "unstable: chosen in only " + percent(share) + " of the resamples";
   }
   // Far above the floor every strength is a compromise with what else is missing.
-  const bool is_far = !is_below(options.far, refit.estimate, data);
+  const bool is_far = !is_below(policy.far, refit.estimate, data);
   return unless_unsteady([&]() -> std::string {
     for (const int effect : refit.added) {
       const double apart = disagreement(refit, effect, data);
-      if (apart > (is_far ? options.consistent_far : options.consistent)) {
+      if (apart > (is_far ? policy.consistent_far : policy.consistent)) {
         return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
       }
     }

@@ -9,11 +9,11 @@ namespace plumbline::validation {
 namespace {
 
 /// One effect that leaves nothing alone, found beside another.
-bool accept_half(const Tried& first, const std::vector<Pair>& pairs, const Data& data,
-                 const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+bool accept_half(const Tried& first, const std::vector<Pair>& pairs, const Data& data, const Policy& policy,
+                 const Progress& progress, Diagnosis& diagnosis) {
   Tried halves = first;
-  halves.refits = halves_of(first, pairs, data, options, progress);
-  const Choice choice = choose(first.stage, halves.refits, data, options);
+  halves.refits = halves_of(first, pairs, data, policy, progress);
+  const Choice choice = choose(first.stage, halves.refits, data, policy);
   if (choice.named < 0) {
     return false;
   }
@@ -24,36 +24,35 @@ bool accept_half(const Tried& first, const std::vector<Pair>& pairs, const Data&
 }
 
 Choice choose_pair(const Tried& first, const std::vector<Pair>& pairs, const Data& data,
-                   const DiagnoseOptions& options) {
+                   const Policy& policy) {
   std::vector<Refit> refits;
   refits.reserve(pairs.size());
   for (const Pair& pair : pairs) {
     refits.push_back(pair.refit);
   }
-  return choose(first.stage, refits, data, options);
+  return choose(first.stage, refits, data, policy);
 }
 
 }  // namespace
 
 void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, const Data& data,
-                   const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis) {
+                   const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   const bool is_hopeless =
-      diagnosis.accepted.size() > 1 && !is_below(options.hopeless, diagnosis.final_stage.estimate, data);
-  if (first.refits.empty() || is_hopeless ||
-      is_below(options.finished, first.refits.front().estimate, data)) {
+      diagnosis.accepted.size() > 1 && !is_below(policy.hopeless, diagnosis.final_stage.estimate, data);
+  if (first.refits.empty() || is_hopeless || is_below(policy.finished, first.refits.front().estimate, data)) {
     return;
   }
-  const std::vector<Pair> pairs = look_ahead(first, catalogue, data, options, progress);
-  const Choice choice = choose_pair(first, pairs, data, options);
+  const std::vector<Pair> pairs = look_ahead(first, catalogue, data, policy, progress);
+  const Choice choice = choose_pair(first, pairs, data, policy);
   diagnosis.pairs = pair_rows(pairs, choice);
-  if (accept_half(first, pairs, data, options, progress, diagnosis) || choice.named < 0) {
+  if (accept_half(first, pairs, data, policy, progress, diagnosis) || choice.named < 0) {
     return;
   }
   const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
   const Stage both = after(pair.refit);
   const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data);
-  const bool needed = judged(both.estimate, data) < (1.0 - options.material) * judged(single.estimate, data);
-  if (is_below(options.finished, both.estimate, data) && needed) {
+  const bool needed = judged(both.estimate, data) < (1.0 - policy.material) * judged(single.estimate, data);
+  if (is_below(policy.finished, both.estimate, data) && needed) {
     accept_pair(first, pairs, choice, single, data, diagnosis);
   }
 }

@@ -9,6 +9,6 @@ namespace plumbline::validation {
 /// are an answer only at the floor: any two laws help where nothing fits. `first` is the first round from
 /// that model; without refits, or where one of them is at the floor, nothing is tried.
 void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, const Data& data,
-                   const DiagnoseOptions& options, const Progress& progress, Diagnosis& diagnosis);
+                   const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
 
 }  // namespace plumbline::validation

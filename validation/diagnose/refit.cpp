@@ -129,8 +129,9 @@ class EveryThird {
   std::vector<std::size_t> kept_;  // indices of the windows
 };
 
-/// A law with corners takes many times the work of all others. Above the floor it is refitted on every third
-/// window first: is it better there than the best so far?
+/// A law with corners takes many times the work of all others, and another start of a law mostly ends where
+/// the first did. Above the floor they are refitted on every third window first: is it better there than the
+/// best so far?
 bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
                        const Data& data, const Effort& effort, const Refit& best) {
   const EveryThird some(data);
@@ -152,12 +153,15 @@ void continue_refit(Refit& refit, const Data& data, int iterations) {
 }
 
 /// Nothing is left to explain by the best (`refits` is sorted).
-bool at_floor(const std::vector<Refit>& refits, const Data& data, const DiagnoseOptions& options) {
-  return !refits.empty() && is_below(options.nothing, refits.front().estimate, data);
+bool at_floor(const std::vector<Refit>& refits, const Data& data, const Policy& policy) {
+  return !refits.empty() && is_below(policy.nothing, refits.front().estimate, data);
 }
 
 /// A full refit, if it can be had.
-void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Progress& progress) {
+void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Policy& policy,
+                const Progress& progress) {
+  constexpr int kIterations = 8;  // and as many again
+  constexpr double kStillFalls = 0.7;
   if (one.is_full || one.estimate.converged) {
     return;
   }
@@ -165,7 +169,12 @@ void finish_one(Refit& one, const Candidate& candidate, const Data& data, const 
   one.is_full = true;
   Refit further = one;
   try {
-    continue_refit(further, data, 16);
+    continue_refit(further, data, kIterations);
+    // Where much else is missing the last values mean little.
+    if (!further.estimate.converged &&
+        (is_below(policy.far, further.estimate, data) || further.square() < kStillFalls * one.square())) {
+      continue_refit(further, data, kIterations);
+    }
     one = std::move(further);
   } catch (const Stopped&) {
     throw;
@@ -177,24 +186,24 @@ void finish_one(Refit& one, const Candidate& candidate, const Data& data, const 
 /// The best so far, in full before the others are tried, where it explains nearly all: once it is at the
 /// floor they need not be.
 void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::vector<Candidate>& candidates,
-                   const Data& data, const Progress& progress) {
+                   const Data& data, const Policy& policy, const Progress& progress) {
   constexpr double kLeft = 0.1;
   Refit& leader = refits.front();
   if (leader.square() < kLeft * stage.estimate.predicted.scores.square()) {
-    finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, progress);
+    finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, policy, progress);
   }
 }
 
 /// Full refits of those that are near the best; above the floor of the first few in any case: the best so far
 /// may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
-            const DiagnoseOptions& options, const Progress& progress) {
+            const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
-    const bool near = one.square() < 1.15 * refits.front().square() + 0.05;
-    if (near || (r < kFirst && !at_floor(refits, data, options))) {
-      finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, progress);
+    const bool near = one.square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
+    if (near || (r < kFirst && !at_floor(refits, data, policy))) {
+      finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, policy, progress);
     }
   }
   sort_by_error(refits);
@@ -208,10 +217,10 @@ bool is_of_constants(const effects::Law& law) {
 }
 
 /// The first start of each candidate in the order of their promise, `most` of them. Where much is missing
-/// many constants promise the same compromise: they take no more than three places.
+/// many constants promise the same compromise: they take no more than some places.
 std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& candidates,
-                                              const std::vector<Hypothesis>& hypotheses, int most) {
-  constexpr int kConstants = 3;
+                                              const std::vector<Hypothesis>& hypotheses, int most,
+                                              int most_constants) {
   std::vector<const Hypothesis*> chosen;
   std::set<int> seen;
   int constants = 0;
@@ -224,7 +233,7 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
     }
     const bool is_constant = is_of_constants(*candidates[static_cast<std::size_t>(hypothesis.candidate)].law);
     constants += is_constant ? 1 : 0;
-    if (!is_constant || constants <= kConstants) {
+    if (!is_constant || constants <= most_constants) {
       chosen.push_back(&hypothesis);
     }
   }
@@ -319,17 +328,16 @@ void sort_by_error(std::vector<Refit>& refits) {
 }
 
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
-                         const std::vector<Hypothesis>& hypotheses, const Data& data,
-                         const DiagnoseOptions& options, const Progress& progress,
-                         std::vector<NotRefitted>* failed) {
+                         const std::vector<Hypothesis>& hypotheses, const Data& data, const Policy& policy,
+                         const Progress& progress, std::vector<NotRefitted>* failed) {
   // Segments are short enough for a straight line: fewer candidates need a refit.
-  constexpr int kRefitsOnSegments = 5;
   const bool straight = data.has_segments();
-  const double kept_promise = straight ? 1.2 : 2.5;
-  const int most_refits = straight ? std::min(kRefitsOnSegments, options.refits) : options.refits;
-  std::vector<const Hypothesis*> chosen = most_promising(candidates, hypotheses, most_refits);
-  const bool is_far = !is_below(options.hopeless, stage.estimate, data);
-  const bool is_above = !straight && !is_below(options.far, stage.estimate, data);
+  const double kept_promise = straight ? std::min(1.2, policy.kept_promise) : policy.kept_promise;
+  const int most_refits = straight ? std::min(policy.refits_segments, policy.refits) : policy.refits;
+  std::vector<const Hypothesis*> chosen =
+      most_promising(candidates, hypotheses, most_refits, policy.constants);
+  const bool is_far = !is_below(policy.hopeless, stage.estimate, data);
+  const bool is_above = !straight && !is_below(policy.far, stage.estimate, data);
   const auto has_corners = [&](const Hypothesis& one) {
     return jumps(
         extend(stage, candidates[static_cast<std::size_t>(one.candidate)], one.start).model.effects.back());
@@ -344,16 +352,17 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   // and next to the floor or most of the error.
   constexpr std::size_t kThorough = 3;
   constexpr double kLeft = 0.25;
-  const double worth = std::max(options.far * options.far, kLeft * stage.estimate.predicted.scores.square());
+  const double worth = std::max(policy.far * policy.far, kLeft * stage.estimate.predicted.scores.square());
   std::vector<Refit> refits;
   const auto is_tried = [&](const Hypothesis& hypothesis) {
     return std::any_of(refits.begin(), refits.end(),
                        [&](const Refit& one) { return one.candidate == hypothesis.candidate; });
   };
-  const auto add = [&](const Hypothesis& hypothesis, double done, bool thorough = true) {
+  const auto add = [&](const Hypothesis& hypothesis, double done, bool thorough = true,
+                       bool is_other_start = false) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
     progress("refitting " + candidate.label(), done);
-    const bool is_asked_first = is_above && !refits.empty() && has_corners(hypothesis);
+    const bool is_asked_first = is_above && !refits.empty() && (is_other_start || has_corners(hypothesis));
     try {
       if (is_asked_first &&
           !is_better_on_some(stage, candidate, hypothesis, data, {4, thorough}, refits.front())) {
@@ -373,15 +382,14 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
     sort_by_error(refits);
     if (refits.size() == 2) {
-      finish_leader(stage, refits, candidates, data, progress);
+      finish_leader(stage, refits, candidates, data, policy, progress);
     }
   };
-  constexpr double kStillBetter = 0.5;
-  constexpr double kMuch = 0.7;  // of the stage's squared error
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const bool is_explained =
-        !refits.empty() && refits.front().square() < kMuch * stage.estimate.predicted.scores.square();
-    if (i >= cheap && (!options.dear || is_explained)) {
+        !refits.empty() &&
+        refits.front().square() < policy.explained * stage.estimate.predicted.scores.square();
+    if (i >= cheap && (!policy.dear || is_explained)) {
       if (failed != nullptr) {
         failed->push_back({chosen[i]->candidate,
                            "it takes many times the work; refitted where nothing else explains much"});
@@ -390,7 +398,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
     }
     // Far from what another one has reached at the floor it cannot come near any more. Above the floor the
     // best so far may itself be refused, and a promise made by a straight line says little.
-    if (refits.size() < 2 || !at_floor(refits, data, options) ||
+    if (refits.size() < 2 || !at_floor(refits, data, policy) ||
         chosen[i]->promised() <= kept_promise * refits.front().square() + 0.3) {
       add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), false);
     }
@@ -398,20 +406,20 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   // The long way, by the windows' beginnings, where the promise is still far better than what was reached.
   for (std::size_t i = 0; i < std::min(kThorough, by_promise.size()); ++i) {
     const Hypothesis& one = *by_promise[i];
-    const bool is_open = refits.empty() || one.promised() < kStillBetter * refits.front().square();
-    if (is_open && one.promised() < worth && (!is_far || options.dear) && has_corners(one)) {
+    const bool is_open = refits.empty() || one.promised() < policy.still_better * refits.front().square();
+    if (is_open && one.promised() < worth && (!is_far || policy.dear) && has_corners(one)) {
       add(one, 0.9, true);
     }
   }
   keep_best_of_each(refits);
-  finish(refits, candidates, data, options, progress);
+  finish(refits, candidates, data, policy, progress);
   // Where hundreds of floors remain beside what is named, another start of a threshold decides nothing.
-  if (!refits.empty() && !at_floor(refits, data, options) && (!is_far || options.dear)) {
+  if (!refits.empty() && !at_floor(refits, data, policy) && (!is_far || policy.dear)) {
     for (const Hypothesis* other : other_starts(refits, hypotheses)) {
-      add(*other, 0.9, other->promised() < worth);
+      add(*other, 0.9, other->promised() < worth, true);
     }
     keep_best_of_each(refits);
-    finish(refits, candidates, data, options, progress);
+    finish(refits, candidates, data, policy, progress);
   }
   if (!refits.empty()) {
     const std::vector<const Hypothesis*> simpler =
@@ -420,7 +428,7 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
       add(*one, 0.95);
     }
     if (!simpler.empty()) {
-      finish(refits, candidates, data, options, progress);
+      finish(refits, candidates, data, policy, progress);
     }
   }
   return refits;

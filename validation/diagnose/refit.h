@@ -34,9 +34,8 @@ void sort_by_error(std::vector<Refit>& refits);
 /// the best one the simpler laws of its place, one of which it may contain. Those that fail are told to
 /// `failed`, if there is one.
 std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candidates,
-                         const std::vector<Hypothesis>& hypotheses, const Data& data,
-                         const DiagnoseOptions& options, const Progress& progress,
-                         std::vector<NotRefitted>* failed = nullptr);
+                         const std::vector<Hypothesis>& hypotheses, const Data& data, const Policy& policy,
+                         const Progress& progress, std::vector<NotRefitted>* failed = nullptr);
 
 /// Two candidates at once, from what was promised of them together.
 Refit refit_pair(const Stage& stage, const Candidate& first, const Candidate& second,

@@ -41,11 +41,11 @@ std::vector<int> draw(const Data& data, std::mt19937_64& random) {
 
 std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits,
                                     const std::vector<std::size_t>& contenders, const Data& data,
-                                    const DiagnoseOptions& options) {
-  std::mt19937_64 random(options.seed);
+                                    const Policy& policy) {
+  std::mt19937_64 random(policy.seed);
   std::vector<double> shares(refits.size() + 1, 0.0);
-  const double keep = (1.0 - options.material) * (1.0 - options.material);
-  for (int r = 0; r < options.resamples; ++r) {
+  const double keep = (1.0 - policy.material) * (1.0 - policy.material);
+  for (int r = 0; r < policy.resamples; ++r) {
     const std::vector<int> times = draw(data, random);
     double best = keep * drawn_square(data, stage.estimate.predicted.square, times);
     std::size_t winner = refits.size();
@@ -56,29 +56,29 @@ std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>
         winner = i;
       }
     }
-    shares[winner] += 1.0 / options.resamples;
+    shares[winner] += 1.0 / policy.resamples;
   }
   return shares;
 }
 
-double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options) {
-  std::mt19937_64 random(options.seed);
+double share_better(const Refit& other, const Refit& best, const Data& data, const Policy& policy) {
+  std::mt19937_64 random(policy.seed);
   double share = 0.0;
-  for (int r = 0; r < options.resamples; ++r) {
+  for (int r = 0; r < policy.resamples; ++r) {
     const std::vector<int> times = draw(data, random);
     if (drawn_square(data, other.estimate.predicted.square, times) <
         drawn_square(data, best.estimate.predicted.square, times)) {
-      share += 1.0 / options.resamples;
+      share += 1.0 / policy.resamples;
     }
   }
   return share;
 }
 
 std::pair<double, double> resampled_error(const Refit& refit, Role role, const Data& data,
-                                          const DiagnoseOptions& options) {
-  std::mt19937_64 random(options.seed);
+                                          const Policy& policy) {
+  std::mt19937_64 random(policy.seed);
   std::vector<double> errors;
-  for (int r = 0; r < options.resamples; ++r) {
+  for (int r = 0; r < policy.resamples; ++r) {
     const Scores scores = drawn_scores(data, refit.estimate.predicted.square, draw(data, random));
     errors.push_back(role == Role::train ? scores.train : scores.held_out);
   }

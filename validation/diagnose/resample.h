@@ -14,13 +14,13 @@ namespace plumbline::validation {
 /// share of "none".
 std::vector<double> selected_shares(const Stage& stage, const std::vector<Refit>& refits,
                                     const std::vector<std::size_t>& contenders, const Data& data,
-                                    const DiagnoseOptions& options);
+                                    const Policy& policy);
 
 /// Between which values 90 % of the resamples have the error of one role, in units of the floor.
 std::pair<double, double> resampled_error(const Refit& refit, Role role, const Data& data,
-                                          const DiagnoseOptions& options);
+                                          const Policy& policy);
 
 /// Share of resamples in which `other` predicts better than `best`.
-double share_better(const Refit& other, const Refit& best, const Data& data, const DiagnoseOptions& options);
+double share_better(const Refit& other, const Refit& best, const Data& data, const Policy& policy);
 
 }  // namespace plumbline::validation

@@ -45,7 +45,7 @@ bool is_asked(const Candidate& candidate, const std::vector<Candidate>& all,
 /// Each rival that is a candidate of its own, refitted in the place of an effect, and what it may contain.
 std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Rival>& rivals,
                                     const effects::Catalogue& catalogue, const Data& data,
-                                    const DiagnoseOptions& options, const Progress& progress) {
+                                    const Policy& policy, const Progress& progress) {
   std::vector<Candidate> candidates;
   {
     PredictorPool pool(without.model, data);
@@ -57,19 +57,19 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Riva
   candidates = std::move(asked);
   std::vector<InPlace> tried;
   for (const Refit& one :
-       refit(without, candidates, screen(without, candidates, data, progress), data, options, progress)) {
+       refit(without, candidates, screen(without, candidates, data, progress), data, policy, progress)) {
     tried.push_back({candidates[static_cast<std::size_t>(one.candidate)], one});
   }
   return tried;
 }
 
 /// Of those nearly as good as the best the one of the fewest fitted parameters, then of the fewest constants.
-const InPlace& simplest_near_best(const std::vector<InPlace>& better, const DiagnoseOptions& options) {
+const InPlace& simplest_near_best(const std::vector<InPlace>& better, const Policy& policy) {
   const auto square = [](const InPlace& one) { return one.refit.square(); };
   const double best =
       square(*std::min_element(better.begin(), better.end(),
                                [&](const InPlace& a, const InPlace& b) { return square(a) < square(b); }));
-  const double near = (1.0 + options.simpler) * (1.0 + options.simpler) * best;
+  const double near = (1.0 + policy.simpler) * (1.0 + policy.simpler) * best;
   const auto complexity = [&](const InPlace& one) {
     return std::make_tuple(square(one) > near, one.refit.own, one.candidate.law->parameter_count(),
                            square(one));
@@ -87,12 +87,12 @@ void drop_rival(const Candidate& candidate, Finding& finding) {
 /// The winner takes the finding's place, at the end of the findings as its effect is at the end of the
 /// model's.
 void replace(std::size_t index, const InPlace& winner, const Stage& without, double share, const Data& data,
-             Diagnosis& diagnosis) {
+             const Policy& policy, Diagnosis& diagnosis) {
   const Finding old = diagnosis.accepted[index];
   Finding finding = finding_of(winner.candidate);
   finding.selected_share = share;
   finding.in_place_of = old.label();
-  if (1.0 - share > kFair) {
+  if (1.0 - share > policy.fair) {
     finding.rivals.push_back({{old.effect, old.at},
                               correlation(without, after(winner.refit), diagnosis.final_stage, data),
                               false});
@@ -126,7 +126,7 @@ Stage without_effect(const Stage& stage, int effect) {
   return without;
 }
 
-void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const DiagnoseOptions& options,
+void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
                    const Progress& progress, Diagnosis& diagnosis) {
   const std::size_t count = diagnosis.accepted.size();
   for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -142,19 +142,18 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
     Refit present;
     present.estimate = final_stage.estimate;
     std::vector<InPlace> better;
-    for (InPlace& one : tried_in_place(without, finding.rivals, catalogue, data, options, progress)) {
-      const double wins = share_better(one.refit, present, data, options);
-      if (wins < kFair) {
+    for (InPlace& one : tried_in_place(without, finding.rivals, catalogue, data, policy, progress)) {
+      const double wins = share_better(one.refit, present, data, policy);
+      if (wins < policy.fair) {
         drop_rival(one.candidate, finding);
-      } else if (wins > options.stable &&
-                 judged(one.refit.estimate, data) <= judged(present.estimate, data)) {
+      } else if (wins > policy.stable && judged(one.refit.estimate, data) <= judged(present.estimate, data)) {
         better.push_back(std::move(one));
       }
     }
     if (!better.empty()) {
-      const InPlace& winner = simplest_near_best(better, options);
-      replace(i, winner, without, share_better(winner.refit, present, data, options), data, diagnosis);
-      return revise_rivals(catalogue, data, options, progress, diagnosis);
+      const InPlace& winner = simplest_near_best(better, policy);
+      replace(i, winner, without, share_better(winner.refit, present, data, policy), data, policy, diagnosis);
+      return revise_rivals(catalogue, data, policy, progress, diagnosis);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace plumbline::validation {
@@ -11,17 +12,29 @@ namespace {
 constexpr double kLost = std::numeric_limits<double>::infinity();
 
 /// The steps of one window. One that made it worse is damped after Marquardt, which turns it away from what
-/// the window hardly tells, where a straight line leads astray first; or merely shortened.
+/// the window hardly tells, where a straight line leads astray first; or merely shortened. The damping falls
+/// again where a step keeps what a straight line promises of it.
 class StateSteps {
  public:
   explicit StateSteps(bool straight) : straight_(straight) {}
-  bool is_at_end() const { return straight_ ? share_ < kShortest : damping_ > kMost; }
-  void after(bool better) {
-    share_ = better ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
-    if (better) {
-      damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
-    } else {
+  /// Every further step would be too short, or promises little; or the last ones have brought little. Dry
+  /// friction bends a window's cost at every reversal: there what a full step promises is never reached.
+  bool is_at_end(const Reduced& one) const {
+    return (straight_ ? share_ < kShortest : promised(one, step(one)) < kLittle * one.raw_sse) ||
+           in_vain_ == kInVain;
+  }
+  /// After a step from `from` that left this cost.
+  void after(const Reduced& from, double cost) {
+    const double gain = from.raw_sse - cost;
+    const double kept = gain / promised(from, step(from));
+    share_ = gain > 0.0 ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
+    if (!(gain > 0.0)) {
       damping_ = std::max(kFactor * damping_, kFirst);
+    } else if (kept > kWell) {
+      damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
+    }
+    if (gain > 0.0) {
+      in_vain_ = gain < kLittle * from.raw_sse ? in_vain_ + 1 : 0;
     }
   }
   /// share * shift, or (H + damping diag(H)) step = H shift.
@@ -35,16 +48,31 @@ class StateSteps {
   }
 
  private:
-  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0, kMost = 1e6;
+  /// What the window's linearised equations promise a step to take off its cost: all that the whole shift
+  /// promises, less (shift - step)' H (shift - step).
+  static double promised(const Reduced& one, const Eigen::VectorXd& step) {
+    const Eigen::VectorXd rest = one.x_shift - step;
+    return one.raw_sse - one.sse - rest.dot(one.x_H * rest);
+  }
+  static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0;
+  static constexpr double kLittle = 1e-3;  // of the cost
+  static constexpr double kWell = 0.5;     // of the promise
+  static constexpr int kInVain = 2;
   bool straight_;
   double share_ = 1.0, damping_ = 0.0;
+  int in_vain_ = 0;  // steps in a row that brought little
 };
 
 /// Squared residuals of a window that begins at x0, and of what is known of x0; r are those of the window.
-/// Infinite where it cannot be integrated from there.
-double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0, Eigen::VectorXd& r) {
+/// Infinite where it cannot be integrated from there, and where the squared residuals alone exceed `most`.
+double cost(Predictor& predictor, const Window& window, const Eigen::VectorXd& x0, Eigen::VectorXd& r,
+            double most = kLost) {
   try {
-    r = predictor.residual(window, x0);
+    const std::optional<Eigen::VectorXd> found = predictor.residual_within(window, x0, most);
+    if (!found) {
+      return kLost;
+    }
+    r = *found;
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
@@ -136,18 +164,18 @@ Settled StateSearch::if_better(const Window& part, const Eigen::VectorXd& x0, bo
   Settled at{x0, {}};
   pool_.with(window_, parameters_, theta_, [&](Predictor& predictor) {
     Eigen::VectorXd r;
-    at.reduced.raw_sse = cost(predictor, part, x0, r);
+    at.reduced.raw_sse = cost(predictor, part, x0, r, than.raw_sse);
   });
   return than.raw_sse <= at.reduced.raw_sse ? at : from(part, x0, with_parameters);
 }
 
 void StateSearch::settle(const Window& part, const Settling& settling, Settled& at) {
   StateSteps steps(settling.straight);
-  for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling) && !steps.is_at_end(); ++i) {
+  for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling) && !steps.is_at_end(at.reduced);
+       ++i) {
     Settled next = if_better(part, at.x0 + steps.step(at.reduced), false, at.reduced);
-    const bool better = next.reduced.raw_sse < at.reduced.raw_sse;
-    steps.after(better);
-    if (better) {
+    steps.after(at.reduced, next.reduced.raw_sse);
+    if (next.reduced.raw_sse < at.reduced.raw_sse) {
       at = std::move(next);
     }
   }

@@ -41,7 +41,8 @@ class StateSearch {
   Settled from(const Eigen::VectorXd& x0);
   /// One step after the other, those that do not help damped, until the state is settled.
   void settle(const Settling& settling, Settled& at);
-  /// The equations there if it is better than this, else its cost alone: the slopes are most of the work.
+  /// The equations there if it is better than this, else a cost alone that is no lower: the slopes are most
+  /// of the work.
   Settled if_better(const Eigen::VectorXd& x0, const Reduced& than);
   /// The equations at hand promise one more step. Where it would still matter it is tried: taken when the
   /// window is the better for it, and its residuals are those that are there, not the promised.

@@ -128,23 +128,21 @@ Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector
 
 // Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps
 // are short where it does. Elsewhere a piece is a sample.
-void Predictor::run(const Window& window, const Eigen::VectorXd& x0) {
+bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, double most) {
   if (options_.method == integrate::Method::explicit_rk) {
     try {
-      run(window, x0, integrate::Method::explicit_rk, std::min(options_.most_steps, kStiff));
-      return;
+      return run(window, x0, integrate::Method::explicit_rk, std::min(options_.most_steps, kStiff), most);
     } catch (const std::runtime_error&) {
       // Stiff: dry friction that holds, a hard contact. Decided anew for every window, so that what a window
       // gives does not depend on those before it.
-      run(window, x0, integrate::Method::rosenbrock, options_.most_steps);
-      return;
+      return run(window, x0, integrate::Method::rosenbrock, options_.most_steps, most);
     }
   }
-  run(window, x0, options_.method, options_.most_steps);
+  return run(window, x0, options_.method, options_.most_steps, most);
 }
 
-void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
-                    double most_steps) {
+bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
+                    double most_steps, double most) {
   begin_nodes(window);
   JumpOde ode(plant_, jumps_);
   integrate::Options options;
@@ -164,7 +162,11 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
   constexpr double kBurst = 0.2;
   constexpr double kLeastBurst = 20.0;
   const double burst = std::max(kBurst * static_cast<double>(window.count), kLeastBurst);
-  for (Eigen::Index k = 0; k + 1 < window.count; ++k) {
+  // A plate shows means over a sample, which the state at its end does not tell.
+  const bool is_watched = std::isfinite(most) && !integrate::PlateMeans(plant_).any();
+  double square = 0.0;
+  bool within = true;
+  for (Eigen::Index k = 0; within && k + 1 < window.count; ++k) {
     const bool in_pieces = is_near_ground(nodes_ - 1);
     for (std::size_t b = 0; b < breaks.size(); ++b) {
       commands_->at(window.first + k, b, ode.command());
@@ -185,8 +187,26 @@ void Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
     if (static_cast<double>(integrator.summary().steps) > most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
+    if (is_watched) {
+      square += square_of_sample(window, k + 1);
+      within = square <= most;
+    }
   }
   evaluations_ += integrator.summary().rate_evaluations;
+  return within;
+}
+
+double Predictor::square_of_sample(const Window& window, Eigen::Index sample) {
+  Eigen::VectorXd y(plant_.sensors());
+  plant_.outputs(states_.col(node_of(sample)).data(), y.data());
+  double square = 0.0;
+  for (int c = 0; c < channels(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const double r =
+        (trial_.measured[i].values[window.first + sample] - y[sensor_of_channel_[i]]) / floors_[c];
+    square += r * r;
+  }
+  return square;
 }
 
 void Predictor::advance_in_pieces(integrate::Integrator& integrator, double end, double t0) {
@@ -218,6 +238,10 @@ void Predictor::average_plates(Eigen::Index sample, integrate::PlateMeans& plate
 
 Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& x0) {
   run(window, x0);
+  return predicted(window);
+}
+
+Eigen::MatrixXd Predictor::predicted(const Window& window) {
   Eigen::MatrixXd predicted(window.count, channels());
   Eigen::VectorXd y(plant_.sensors());
   integrate::PlateMeans plates(plant_);
@@ -236,12 +260,25 @@ Eigen::Index Predictor::rows(const Window& window) const {
 }
 
 Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd& x0) {
-  const Eigen::MatrixXd predicted = predict(window, x0);
+  run(window, x0);
+  return residual_of_run(window);
+}
+
+std::optional<Eigen::VectorXd> Predictor::residual_within(const Window& window, const Eigen::VectorXd& x0,
+                                                          double most) {
+  if (!run(window, x0, most)) {
+    return std::nullopt;
+  }
+  return residual_of_run(window);
+}
+
+Eigen::VectorXd Predictor::residual_of_run(const Window& window) {
+  const Eigen::MatrixXd at = predicted(window);
   Eigen::VectorXd r(rows(window));
   for (Eigen::Index k = 0; k < window.count; ++k) {
     for (int c = 0; c < channels(); ++c) {
       const double measured = trial_.measured[static_cast<std::size_t>(c)].values[window.first + k];
-      r[k * channels() + c] = (measured - predicted(k, c)) / floors_[c];
+      r[k * channels() + c] = (measured - at(k, c)) / floors_[c];
     }
   }
   timing_residuals(window, r);

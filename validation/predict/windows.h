@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,9 @@ class Predictor {
   Eigen::MatrixXd measured_positions() const;
   /// Residuals only.
   Eigen::VectorXd residual(const Window& window, const Eigen::VectorXd& x0);
+  /// Those of which the sum of squares is at most `most`; none as soon as the first samples alone have more.
+  std::optional<Eigen::VectorXd> residual_within(const Window& window, const Eigen::VectorXd& x0,
+                                                 double most);
   Linearisation linearise(const Window& window, const Eigen::VectorXd& x0,
                           const std::vector<FreeParameter>& parameters);
   /// Residuals of a window: samples x channels, then contact events.
@@ -160,8 +164,14 @@ class Predictor {
     int direction = 0;
   };
 
-  void run(const Window& window, const Eigen::VectorXd& x0);
-  void run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method, double most_steps);
+  /// False where it was left because the samples so far have a larger sum of squared residuals than `most`.
+  bool run(const Window& window, const Eigen::VectorXd& x0,
+           double most = std::numeric_limits<double>::infinity());
+  bool run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method, double most_steps,
+           double most);
+  double square_of_sample(const Window& window, Eigen::Index sample);
+  Eigen::MatrixXd predicted(const Window& window);
+  Eigen::VectorXd residual_of_run(const Window& window);
   void average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y);
   void advance_in_pieces(integrate::Integrator& integrator, double end, double t0);
   void add_jumps(const std::vector<integrate::Event>& events, double t0);

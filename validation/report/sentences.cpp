@@ -35,7 +35,7 @@ Judged judged(const Rung& rung) { return judged(rung.train(), rung.held_out()); 
 /// farthest first, where the model as given is clearly above the floor and the error fell with them; else
 /// empty.
 std::string moved_numbers(const Diagnosis& diagnosis) {
-  constexpr double kClearly = 1.2;  // floors: as DiagnoseOptions::finished
+  constexpr double kClearly = 1.2;  // floors: as Policy::finished
   constexpr double kMoved = 0.5;    // deviations; less is what any fit does
   constexpr std::size_t kShown = 4;
   const double given = judged(diagnosis.ladder.front()).error;

@@ -1,0 +1,25 @@
+// What each constant of the diagnosis' policy decides.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/battery/run_case.h"
+
+namespace plumbline::battery {
+
+/// A constant at another value, over all cases.
+struct Swept {
+  std::string constant;
+  double value = 0.0;
+  int changed = 0;  ///< cases with another verdict or other names
+  int lost = 0;     ///< right before, wrong now
+  int won = 0;      ///< wrong before, right now
+};
+
+/// Each case is diagnosed with the policy as it is, then with half and twice the value of one constant at a
+/// time (PolicyConstant::scale). What a diagnosis has estimated serves the others of the same case.
+std::vector<Swept> sweep(const std::vector<Case>& cases, const RunOptions& options);
+std::string sweep_text(const std::vector<Swept>& swept, std::size_t cases);
+
+}  // namespace plumbline::battery
