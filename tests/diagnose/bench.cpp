@@ -5,21 +5,37 @@
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
+namespace {
 
-model::Model bench() { return model::read_model("robots/mabel/leg_bench.yaml", effects::Catalogue::all()); }
-
-Data bench_twins(const std::vector<std::string>& hidden) {
-  const model::Model bare = bench();
+Data twins_of(const model::Model& bare, const std::string& folder, const std::vector<std::string>& names,
+              const std::vector<std::string>& hidden) {
   model::Model robot = bare;
   for (const std::string& one : hidden) {
     robot.effects.push_back(parse_effect(one, bare, effects::Catalogue::all()));
   }
   std::vector<Trial> trials;
-  for (const std::string name : {"siso_mLA", "siso_mLS", "mimo"}) {
-    trials.push_back(twin(robot, read_experiment("robots/mabel/experiments/" + name + ".yaml", bare), {}));
+  for (const std::string& name : names) {
+    trials.push_back(twin(robot, read_experiment(folder + "/" + name + ".yaml", bare), {}));
     trials.back().name = trials.back().file = name;
   }
   return Data(std::move(trials), {});
+}
+
+}  // namespace
+
+model::Model bench() { return model::read_model("robots/mabel/leg_bench.yaml", effects::Catalogue::all()); }
+
+Data bench_twins(const std::vector<std::string>& hidden) {
+  return twins_of(bench(), "robots/mabel/experiments", {"siso_mLA", "siso_mLS", "mimo"}, hidden);
+}
+
+model::Model pendulum_drive() {
+  return model::read_model("tests/robots/pendulum/model.yaml", effects::Catalogue::all());
+}
+
+Data pendulum_twins(const std::vector<std::string>& hidden) {
+  return twins_of(pendulum_drive(), "tests/robots/pendulum/experiments", {"chirp", "steps", "multisine"},
+                  hidden);
 }
 
 Data hopper_twins(const std::string& hidden) {

@@ -1,4 +1,5 @@
-// MABEL's leg on the bench and twins of its three experiments, for the tests of this folder.
+// MABEL's leg on the bench, a pendulum and a hopper, and twins of their experiments, for the tests of this
+// folder.
 #pragma once
 
 #include <set>
@@ -15,6 +16,10 @@ model::Model bench();
 /// Two trials to train on and one held out, recorded from the bench with these effects ("law@place:p=1") in
 /// it.
 Data bench_twins(const std::vector<std::string>& hidden);
+
+/// The same of a pendulum on a geared motor.
+model::Model pendulum_drive();
+Data pendulum_twins(const std::vector<std::string>& hidden);
 
 /// The hopper's two trials, recorded with this effect in it.
 Data hopper_twins(const std::string& hidden);

@@ -20,6 +20,18 @@ TEST(Refit, OfTheOthersIsNotNeededOnceTheBestIsAtTheFloor) {
   EXPECT_LT(best.estimate.scores.train, 1.1);
 }
 
+// A lag of a two-hundredth of a sample takes more integrator steps than others, and a delay reaches the floor,
+// too.
+TEST(Refit, WhatTakesManyStepsIsTriedWhereItPromisesAsMuchAsTheBest) {
+  const Data data = pendulum_twins({"actuator_lag@drive:time_constant=5e-6"}).thinned(24);
+  const Tried tried = try_candidates(as_given(pendulum_drive(), data),
+                                     some_laws({"actuator_lag", "command_delay"}), {}, data, {}, silent);
+  const auto is_lag = [&](const Refit& one) {
+    return tried.candidates[static_cast<std::size_t>(one.candidate)].label() == "actuator_lag@drive";
+  };
+  EXPECT_TRUE(std::any_of(tried.refits.begin(), tried.refits.end(), is_lag));
+}
+
 // A hard stop comes below 1.2 floors where a spring on one side is hidden, but not to the floor: a law whose
 // promise is bad may still be the one that does, for a straight line says little of where it begins to act.
 TEST(Refit, OfTheOthersIsNeededWhereTheBestIsNearTheFloorOnly) {

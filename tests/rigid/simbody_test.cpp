@@ -1,5 +1,6 @@
 // The project's rigid bodies against Simbody's, for every robot that ships: accelerations with and without
 // pinned feet, the feet's reactions, and the impact's impulses.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -166,7 +167,7 @@ TEST_P(EveryRobot, MovesAsInSimbody) {
     worst = std::max(worst, difference(rate.tail(plant_->positions()), {}, {},
                                        simbody.accelerate(delivered(*plant_, torques_))));
   }
-  RecordProperty("worst", std::to_string(worst));
+  RecordProperty("worst", fmt::format("{:.1e}", worst));
   EXPECT_LT(worst, kRelative);
 }
 
@@ -194,7 +195,7 @@ TEST_P(EveryRobot, StandsAsInSimbody) {
                                          simbody.accelerate(delivered(*plant_, torques_))));
     }
   }
-  RecordProperty("worst", std::to_string(worst));
+  RecordProperty("worst", fmt::format("{:.1e}", worst));
   EXPECT_LT(worst, kRelative);
 }
 
@@ -215,7 +216,7 @@ TEST_P(EveryRobot, IsStruckAsInSimbody) {
       worst = std::max(worst, difference(x_.tail(plant_->positions()), blow.feet, axes, expected));
     }
   }
-  RecordProperty("worst", std::to_string(worst));
+  RecordProperty("worst", fmt::format("{:.1e}", worst));
   EXPECT_LT(worst, kRelative);
 }
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "controllers/driver/certificate.h"
+#include "controllers/driver/plan.h"
 #include "controllers/driver/signature.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
@@ -30,6 +31,17 @@ void print(const validation::Certified& certified) {
   if (certified.step_p999 > 0.0) {
     fmt::print("\n99.9 % of the controller's steps took less than {:.2f} us here and now.\n",
                1e6 * certified.step_p999);
+  }
+}
+
+/// As the robot's computer will: signature, files, and the plan that the driver makes of it.
+void read_back(const std::string& file) {
+  try {
+    const driver::Certificate certificate = driver::read_certificate(file);
+    driver::check_files(certificate);
+    driver::plan_from(certificate.body);
+  } catch (const driver::DriverError& error) {
+    throw InputError(error.what());
   }
 }
 
@@ -68,6 +80,7 @@ void run(const Options& options, Outcome& outcome) {
     return;
   }
   write_text_atomically(options.out, driver::signed_certificate(certified.body, private_pem));
+  read_back(options.out);
   fmt::print("\n{}: valid until {}, signed by key {}...\n", options.out,
              certified.body.at("valid_until").text(),
              driver::to_hex(driver::public_key(private_pem)).substr(0, 16));

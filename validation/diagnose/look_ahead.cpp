@@ -37,6 +37,36 @@ Data without_stiffness(const Stage& stage, const Data& data) {
   return limited;
 }
 
+/// What could not be followed within this limit, but promises to come as near to the floor as the best: it
+/// may be the law that is hidden, and the best its rival.
+void refit_stiff(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
+  if (tried.refits.empty() || !is_below(policy.far, tried.refits.front().estimate, data)) {
+    return;
+  }
+  const double near = (1.0 + policy.near_best) * tried.refits.front().square() + 0.05;
+  std::set<int> stiff;
+  for (const NotRefitted& one : tried.failed) {
+    stiff.insert(one.candidate);
+  }
+  std::vector<Hypothesis> again;
+  for (const Hypothesis& one : tried.hypotheses) {
+    if (one.promised() <= near && stiff.erase(one.candidate) > 0) {
+      again.push_back(one);
+    }
+  }
+  if (again.empty()) {
+    return;
+  }
+  for (Refit& one : refit(tried.stage, tried.candidates, again, data, policy, progress)) {
+    tried.failed.erase(
+        std::remove_if(tried.failed.begin(), tried.failed.end(),
+                       [&](const NotRefitted& failed) { return failed.candidate == one.candidate; }),
+        tried.failed.end());
+    tried.refits.push_back(std::move(one));
+  }
+  sort_by_error(tried.refits);
+}
+
 /// The same two candidates, in whichever order.
 bool is_same(const Pair& one, const Pair& other) {
   return (one.first.label() == other.first.label() && one.second.label() == other.second.label()) ||
@@ -119,6 +149,7 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
 void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
   tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, without_stiffness(tried.stage, data),
                        policy, progress, &tried.failed);
+  refit_stiff(data, policy, progress, tried);
 }
 
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
