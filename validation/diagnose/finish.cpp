@@ -70,6 +70,23 @@ double settled_anew(Stage stage, const Estimate& estimate, const Data& data) {
   return estimate_states(pool).scores.train;
 }
 
+/// What a second search of the same stage from these values finds, if that is better once the windows are
+/// settled anew. Where it cannot be followed it is not.
+void take_if_still_better(const Stage& stage, const Eigen::VectorXd& from, const EstimateOptions& search,
+                          const Data& data, Estimate& than) {
+  try {
+    PredictorPool pool(stage.model, data);
+    Estimate second = gauss_newton(pool, stage.parameters, from, {}, search);
+    if (settled_anew(stage, second, data) < settled_anew(stage, than, data)) {
+      than = std::move(second);
+    }
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return;
+  }
+}
+
 /// Each finding's errors are those of the rung before its own and of its own.
 void set_errors_of_rungs(Diagnosis& diagnosis) {
   for (Finding& finding : diagnosis.accepted) {
@@ -152,10 +169,7 @@ void rescore(const Data& all, const Policy& policy, const Progress& progress, Di
       }
       if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all)) {
         const Eigen::VectorXd other = as_before(rung.stage, theta, before->stage);
-        const Estimate second = gauss_newton(pool, rung.stage.parameters, other, {}, search);
-        if (settled_anew(rung.stage, second, all) < settled_anew(rung.stage, found, all)) {
-          found = second;
-        }
+        take_if_still_better(rung.stage, other, search, all, found);
       }
     }
     rung.stage.estimate = std::move(found);
