@@ -20,8 +20,8 @@ TEST(Refit, OfTheOthersIsNotNeededOnceTheBestIsAtTheFloor) {
   EXPECT_LT(best.estimate.scores.train, 1.1);
 }
 
-// A lag of a two-hundredth of a sample takes more integrator steps than others, and a delay reaches the floor,
-// too.
+// A lag of a two-hundredth of a sample takes more integrator steps than others, and a delay reaches the
+// floor, too.
 TEST(Refit, WhatTakesManyStepsIsTriedWhereItPromisesAsMuchAsTheBest) {
   const Data data = pendulum_twins({"actuator_lag@drive:time_constant=5e-6"}).thinned(24);
   const Tried tried = try_candidates(as_given(pendulum_drive(), data),

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "simulator/run/commanded_run.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/run/commanded_run.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::limits {
@@ -27,7 +27,7 @@ model::Model with_effect(const model::Model& model, const std::string& law, cons
 run::CommandedOptions options_at(double relative_tolerance);
 
 run::CommandedRun simulate(const model::Model& model, const validation::Experiment& experiment,
-                              const run::CommandedOptions& options);
+                           const run::CommandedOptions& options);
 
 /// The linear map from the plant's independent coordinates to named ones: named = offset + map * z.
 struct NamedMap {

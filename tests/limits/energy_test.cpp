@@ -14,9 +14,7 @@ constexpr double kTight = 1e-8;
 constexpr double kBalance = 1e-5;
 
 /// Energy that the account misses, as a share of what was exchanged.
-double imbalance(const run::CommandedRun& run) {
-  return std::abs(run.energy_error) / run.energy_exchanged;
-}
+double imbalance(const run::CommandedRun& run) { return std::abs(run.energy_error) / run.energy_exchanged; }
 
 /// A place where the effect works in this experiment.
 std::string place_for(const model::Model& model, effects::Place place) {
