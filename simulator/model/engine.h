@@ -11,6 +11,5 @@ enum class Engine {
 /// Of all plants and mechanisms of this program, from now on. Feet, effects, drives and the integrator are
 /// the same with both. To be called before threads are started.
 void set_engine(Engine engine);
-Engine engine();
 
 }  // namespace plumbline::model

@@ -47,7 +47,6 @@ Eigen::Isometry3d along_axis(const Joint& joint) {
 }  // namespace
 
 void set_engine(Engine engine) { chosen = engine; }
-Engine engine() { return chosen; }
 
 // Simbody holds the tree, checks it and gives its energy. Poses, mass matrix and bias are TreeDynamics':
 // Simbody's own operators cost one pass over the tree for each column, and its kinematics as much as all the

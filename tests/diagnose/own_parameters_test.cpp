@@ -8,7 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include "simulator/model/robot_file.h"
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/candidates.h"
 #include "validation/diagnose/diagnose.h"
@@ -23,33 +22,14 @@ const std::vector<std::string> kScatter{"torque_constant_error@drive:scale=1.04"
                                         "rotor_inertia@drive:inertia=-2e-6", "added_mass@arm:mass=0.01",
                                         "viscous@drive:damping=2e-5"};
 
-model::Model pendulum() {
-  return model::read_model("tests/robots/pendulum/model.yaml", effects::Catalogue::all());
-}
-
-Data twins(const model::Model& bare, const std::vector<std::string>& hidden) {
-  model::Model robot = bare;
-  for (const std::string& one : hidden) {
-    robot.effects.push_back(parse_effect(one, bare, effects::Catalogue::all()));
-  }
-  std::vector<Trial> trials;
-  for (const char* name : {"chirp", "steps", "multisine"}) {
-    const Experiment experiment =
-        read_experiment(std::string("tests/robots/pendulum/experiments/") + name + ".yaml", bare);
-    trials.push_back(twin(robot, experiment, {}));
-    trials.back().name = trials.back().file = name;
-  }
-  return Data(std::move(trials), {});
-}
-
 Diagnosis diagnosed(const std::vector<std::string>& hidden) {
-  const model::Model bare = pendulum();
-  const Data data = twins(bare, hidden);
+  const model::Model bare = pendulum_drive();
+  const Data data = pendulum_twins(hidden);
   return diagnose(bare, effects::Catalogue::all(), data, {}, silent);
 }
 
 TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {
-  const model::Model bare = pendulum();
+  const model::Model bare = pendulum_drive();
   const model::Model open = with_stated_errors(bare);
   std::vector<std::string> labels;
   for (const FreeParameter& parameter : stated_parameters(open, 3.0)) {
@@ -58,15 +38,15 @@ TEST(OwnParameters, StatedErrorsAreThereAndChangeNothing) {
   EXPECT_THAT(labels,
               testing::UnorderedElementsAre("viscous@drive:damping", "torque_constant_error@drive:scale",
                                             "rotor_inertia@drive:inertia", "added_mass@arm:mass"));
-  const Data data = twins(bare, {});
+  const Data data = pendulum_twins({});
   EXPECT_NEAR(as_given(open, data).estimate.scores.held_out, as_given(bare, data).estimate.scores.held_out,
               1e-6);
 }
 
 TEST(OwnParameters, DataSpeakForTheStatedNumbersOnlyWhereTheyAreTrue) {
-  const model::Model bare = pendulum();
-  const Data exact = twins(bare, {});
-  const Data other = twins(bare, kScatter);
+  const model::Model bare = pendulum_drive();
+  const Data exact = pendulum_twins({});
+  const Data other = pendulum_twins(kScatter);
   EXPECT_GT(evidence_for_stated(as_given(bare, exact), exact, 3.0), std::log(100.0));
   EXPECT_LT(evidence_for_stated(as_given(bare, other), other, 3.0), 0.0);
 }
@@ -80,9 +60,9 @@ Stage with_own_fitted(const model::Model& bare, const Data& data) {
 
 // The density ratio is one number, from wherever the log density is expanded.
 TEST(OwnParameters, EvidenceIsTheSameWhereTheNumbersWereFitted) {
-  const model::Model bare = pendulum();
-  const Data exact = twins(bare, {});
-  const Data other = twins(bare, kScatter);
+  const model::Model bare = pendulum_drive();
+  const Data exact = pendulum_twins({});
+  const Data other = pendulum_twins(kScatter);
   EXPECT_NEAR(evidence_for_stated(with_own_fitted(bare, exact), exact, 3.0),
               evidence_for_stated(as_given(bare, exact), exact, 3.0), 2.0);
   EXPECT_LT(evidence_for_stated(with_own_fitted(bare, other), other, 3.0), -std::log(100.0));
@@ -110,7 +90,7 @@ TEST(OwnParameters, AnEffectIsFoundThroughTheScatter) {
 
 // Beside what was named: that stays last in the model, and every parameter stays with its law.
 TEST(OwnParameters, AreOpenedBesideWhatWasNamed) {
-  model::Model model = pendulum();
+  model::Model model = pendulum_drive();
   model.effects.push_back(
       parse_effect("coulomb@drive:level=1e-4,smoothing_speed=0.1", model, effects::Catalogue::all()));
   Stage named{model, matching(free_parameters(model), {"coulomb@drive:level"}), {}};
@@ -132,7 +112,7 @@ TEST(OwnParameters, AreOpenedBesideWhatWasNamed) {
 // Robots whose numbers scatter as their model states: the values at which data and statement together end
 // must lie as far from the true ones as their deviations say. Of 120 intervals of 95 %, 114 +- 2.4.
 TEST(OwnParameters, IntervalsHoldTheTruthAsOftenAsTheySay) {
-  const model::Model open = with_stated_errors(pendulum());
+  const model::Model open = with_stated_errors(pendulum_drive());
   const std::vector<FreeParameter> parameters = stated_parameters(open, 3.0);
   const Experiment chirp = read_experiment("tests/robots/pendulum/experiments/chirp.yaml", open);
   std::mt19937_64 random(11);

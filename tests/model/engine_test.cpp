@@ -1,32 +1,19 @@
 // Mass matrix and bias of the project's tree against Simbody's operators, for every robot that ships, and a
-// robot that hops under its controller on both.
+// robot that walks under its controller on both.
 #include "simulator/model/engine.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <random>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/run/run_scenario.h"
+#include "tests/robots/shipped.h"
 
 namespace plumbline::model {
 namespace {
-
-std::vector<std::string> robots() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(PLUMBLINE_ROOT "/robots")) {
-    std::string first, second;
-    std::ifstream text(entry.path());
-    if (entry.path().extension() == ".yaml" && std::getline(text, first) && first == "plumbline: model/1" &&
-        std::getline(text, second) && second.rfind("base:", 0) != 0) {
-      files.push_back(entry.path().string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 class Engines : public testing::TestWithParam<std::string> {
  protected:
@@ -58,13 +45,7 @@ TEST_P(Engines, GiveTheSameMassMatrixAndBias) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, Engines, testing::ValuesIn(robots()), [](const auto& robot) {
-  std::string name = std::filesystem::path(robot.param).parent_path().filename().string() + "_" +
-                     std::filesystem::path(robot.param).stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Robots, Engines, testing::ValuesIn(shipped_robots()), robot_label);
 
 // Half a second of walking, through a touchdown: the same to the integrator's error.
 TEST(EnginesWalk, TheSame) {

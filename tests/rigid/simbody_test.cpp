@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <random>
 #include <set>
 
@@ -12,6 +11,7 @@
 #include "simulator/model/rigid_contact.h"
 #include "simulator/model/robot_file.h"
 #include "tests/rigid/simbody_machine.h"
+#include "tests/robots/shipped.h"
 
 namespace plumbline::rigid_tests {
 namespace {
@@ -19,21 +19,6 @@ namespace {
 // Simbody solves M and constraints together in coordinates of its own; gears of 31 and rotors of 1e-4 kg m^2
 // beside links of 40 kg cost it four to five digits of the sixteen.
 constexpr double kRelative = 1e-9;
-
-/// Models that stand on no other one: without their effects overlays are the same machine.
-std::vector<std::string> robots() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(PLUMBLINE_ROOT "/robots")) {
-    std::string first, second;
-    std::ifstream text(entry.path());
-    if (entry.path().extension() == ".yaml" && std::getline(text, first) && first == "plumbline: model/1" &&
-        std::getline(text, second) && second.rfind("base:", 0) != 0) {
-      files.push_back(entry.path().string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 class EveryRobot : public testing::TestWithParam<std::string> {
  protected:
@@ -220,12 +205,7 @@ TEST_P(EveryRobot, IsStruckAsInSimbody) {
   EXPECT_LT(worst, kRelative);
 }
 
-std::string label(const testing::TestParamInfo<std::string>& info) {
-  const std::filesystem::path file(info.param);
-  return file.parent_path().filename().string() + "_" + file.stem().string();
-}
-
-INSTANTIATE_TEST_SUITE_P(Shipped, EveryRobot, testing::ValuesIn(robots()), label);
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryRobot, testing::ValuesIn(shipped_robots()), robot_label);
 
 }  // namespace
 }  // namespace plumbline::rigid_tests

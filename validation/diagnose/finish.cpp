@@ -72,12 +72,11 @@ double settled_anew(Stage stage, const Estimate& estimate, const Data& data) {
 
 /// What a second search of the same stage from these values finds, if that is better once the windows are
 /// settled anew. Where it cannot be followed it is not.
-void take_if_still_better(const Stage& stage, const Eigen::VectorXd& from, const EstimateOptions& search,
-                          const Data& data, Estimate& than) {
+void take_if_still_better(PredictorPool& pool, const Stage& stage, const Eigen::VectorXd& from,
+                          const EstimateOptions& search, Estimate& than) {
   try {
-    PredictorPool pool(stage.model, data);
     Estimate second = gauss_newton(pool, stage.parameters, from, {}, search);
-    if (settled_anew(stage, second, data) < settled_anew(stage, than, data)) {
+    if (settled_anew(stage, second, pool.data()) < settled_anew(stage, than, pool.data())) {
       than = std::move(second);
     }
   } catch (const Stopped&) {
@@ -169,7 +168,7 @@ void rescore(const Data& all, const Policy& policy, const Progress& progress, Di
       }
       if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all)) {
         const Eigen::VectorXd other = as_before(rung.stage, theta, before->stage);
-        take_if_still_better(rung.stage, other, search, all, found);
+        take_if_still_better(pool, rung.stage, other, search, found);
       }
     }
     rung.stage.estimate = std::move(found);

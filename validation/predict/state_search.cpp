@@ -11,49 +11,54 @@ namespace {
 
 constexpr double kLost = std::numeric_limits<double>::infinity();
 
+/// A step of a window's state, and what a straight line promises it to take off the window's cost.
+struct StateStep {
+  Eigen::VectorXd shift;
+  double promised = 0.0;
+};
+
 /// The steps of one window. One that made it worse is damped after Marquardt, which turns it away from what
 /// the window hardly tells, where a straight line leads astray first; or merely shortened. The damping falls
 /// again where a step keeps what a straight line promises of it.
 class StateSteps {
  public:
   explicit StateSteps(bool straight) : straight_(straight) {}
-  /// Every further step would be too short, or promises little; or the last ones have brought little. Dry
-  /// friction bends a window's cost at every reversal: there what a full step promises is never reached.
-  bool is_at_end(const Reduced& one) const {
-    return (straight_ ? share_ < kShortest : promised(one, step(one)) < kLittle * one.raw_sse) ||
-           in_vain_ == kInVain;
+  /// share * shift, or (H + damping diag(H)) step = H shift.
+  StateStep next(const Reduced& one) const {
+    StateStep step;
+    if (straight_ || damping_ == 0.0) {
+      step.shift = (straight_ ? share_ : 1.0) * one.x_shift;
+    } else {
+      Eigen::MatrixXd H = one.x_H;
+      H.diagonal() *= 1.0 + damping_;
+      step.shift = H.ldlt().solve(one.x_H * one.x_shift);
+    }
+    // All that the whole shift promises, less (shift - step)' H (shift - step).
+    const Eigen::VectorXd rest = one.x_shift - step.shift;
+    step.promised = one.raw_sse - one.sse - rest.dot(one.x_H * rest);
+    return step;
   }
-  /// After a step from `from` that left this cost.
-  void after(const Reduced& from, double cost) {
+  /// It would be too short, or promises little; or the last ones have brought little. Dry friction bends a
+  /// window's cost at every reversal: there what a full step promises is never reached.
+  bool is_end(const StateStep& step, const Reduced& one) const {
+    return (straight_ ? share_ < kShortest : step.promised < kLittle * one.raw_sse) || in_vain_ == kInVain;
+  }
+  /// After the step from `from` has left this cost.
+  void after(const StateStep& step, const Reduced& from, double cost) {
     const double gain = from.raw_sse - cost;
-    const double kept = gain / promised(from, step(from));
-    share_ = gain > 0.0 ? std::min(1.0, 2.0 * share_) : 0.3 * share_;
     if (!(gain > 0.0)) {
+      share_ *= 0.3;
       damping_ = std::max(kFactor * damping_, kFirst);
-    } else if (kept > kWell) {
+      return;
+    }
+    share_ = std::min(1.0, 2.0 * share_);
+    if (gain / step.promised > kWell) {
       damping_ = damping_ > kFirst ? damping_ / kFactor : 0.0;
     }
-    if (gain > 0.0) {
-      in_vain_ = gain < kLittle * from.raw_sse ? in_vain_ + 1 : 0;
-    }
-  }
-  /// share * shift, or (H + damping diag(H)) step = H shift.
-  Eigen::VectorXd step(const Reduced& one) const {
-    if (straight_ || damping_ == 0.0) {
-      return (straight_ ? share_ : 1.0) * one.x_shift;
-    }
-    Eigen::MatrixXd H = one.x_H;
-    H.diagonal() *= 1.0 + damping_;
-    return H.ldlt().solve(one.x_H * one.x_shift);
+    in_vain_ = gain < kLittle * from.raw_sse ? in_vain_ + 1 : 0;
   }
 
  private:
-  /// What the window's linearised equations promise a step to take off its cost: all that the whole shift
-  /// promises, less (shift - step)' H (shift - step).
-  static double promised(const Reduced& one, const Eigen::VectorXd& step) {
-    const Eigen::VectorXd rest = one.x_shift - step;
-    return one.raw_sse - one.sse - rest.dot(one.x_H * rest);
-  }
   static constexpr double kShortest = 0.01, kFirst = 1e-2, kFactor = 10.0;
   static constexpr double kLittle = 1e-3;  // of the cost
   static constexpr double kWell = 0.5;     // of the promise
@@ -171,10 +176,13 @@ Settled StateSearch::if_better(const Window& part, const Eigen::VectorXd& x0, bo
 
 void StateSearch::settle(const Window& part, const Settling& settling, Settled& at) {
   StateSteps steps(settling.straight);
-  for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling) && !steps.is_at_end(at.reduced);
-       ++i) {
-    Settled next = if_better(part, at.x0 + steps.step(at.reduced), false, at.reduced);
-    steps.after(at.reduced, next.reduced.raw_sse);
+  for (int i = 0; i < settling.steps && !is_settled(at.reduced, settling); ++i) {
+    const StateStep step = steps.next(at.reduced);
+    if (steps.is_end(step, at.reduced)) {
+      return;
+    }
+    Settled next = if_better(part, at.x0 + step.shift, false, at.reduced);
+    steps.after(step, at.reduced, next.reduced.raw_sse);
     if (next.reduced.raw_sse < at.reduced.raw_sse) {
       at = std::move(next);
     }
