@@ -10,7 +10,10 @@ namespace {
 
 enum Index : std::size_t { kStiffness, kDamping };
 
-constexpr double kDampingRatio = 0.3;  // of the stretch a diagnosis starts from
+// Of the stretch that a diagnosis starts from. Belts and light cables swing; the cables of a robot's legs
+// hardly do: Park et al. found ratios from 1 to 5 (Table VIII).
+constexpr double kSwinging = 0.3;
+constexpr double kCreeping = 2.0;
 
 }  // namespace
 
@@ -41,7 +44,11 @@ std::vector<Values> CableStretch::starts(const Scales& scales) const {
   // The highest where a light motor drives a heavy load: it swings against the cable by itself.
   for (const double frequency : {6.0, 18.0, 50.0, 150.0, 450.0}) {
     const double rate = 2.0 * kPi * frequency;
-    grid.push_back({inertia * rate * rate, 2.0 * kDampingRatio * inertia * rate});
+    grid.push_back({inertia * rate * rate, 2.0 * kSwinging * inertia * rate});
+  }
+  for (const double frequency : {18.0, 50.0, 150.0}) {
+    const double rate = 2.0 * kPi * frequency;
+    grid.push_back({inertia * rate * rate, 2.0 * kCreeping * inertia * rate});
   }
   return grid;
 }

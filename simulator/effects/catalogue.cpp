@@ -28,6 +28,7 @@
 #include "simulator/effects/rotor_inertia.h"
 #include "simulator/effects/spring.h"
 #include "simulator/effects/stribeck.h"
+#include "simulator/effects/switch_lateness.h"
 #include "simulator/effects/torque_bias.h"
 #include "simulator/effects/torque_constant_error.h"
 #include "simulator/effects/unilateral_spring.h"
@@ -68,6 +69,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const Boom>(),
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
+      std::make_shared<const SwitchLateness>(),
   });
 }
 

@@ -87,6 +87,8 @@ std::string to_string(Place place) {
       return "foot";
     case Place::base:
       return "base";
+    case Place::contact_switch:
+      return "contact switch";
   }
   return "unknown";
 }

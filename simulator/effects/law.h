@@ -12,8 +12,9 @@ namespace plumbline::effects {
 /// coordinate: a named scalar position (joint or linear combination); motor: a motor's own coordinate;
 /// ratio: a rigid coupling of a motor to coordinates, which the effect releases;
 /// body: a link's mass properties; sensor: one measured channel; world: gravity;
-/// foot: a point that meets the ground (laws in contact/); base: the two slides that carry a planar robot.
-enum class Place { coordinate, motor, ratio, body, sensor, world, foot, base };
+/// foot: a point that meets the ground (laws in contact/); base: the two slides that carry a planar robot;
+/// contact_switch: a switch that shows when a foot is in the ground.
+enum class Place { coordinate, motor, ratio, body, sensor, world, foot, base, contact_switch };
 
 /// The line along which a parameter is searched: as it is, by its logarithm (positive scales such as a
 /// speed), or by its reciprocal (stiffnesses whose null value is infinite).
@@ -145,6 +146,13 @@ class StructureLaw : public Law {
 class SensorLaw : public Law {
  public:
   virtual double reading(double actual, const double* p) const = 0;
+};
+
+/// When a contact switch reads what its foot does.
+class SwitchLaw : public Law {
+ public:
+  /// How long after the foot has touched down (`closes`) or lifted off, s; linear in the parameters.
+  virtual double lateness(bool closes, const double* p) const = 0;
 };
 
 /// "{force} s/{position}" with the units of a rotary or a linear place.

@@ -101,6 +101,9 @@ std::vector<std::string> Model::places(effects::Place place) const {
         names.emplace_back("base");
       }
       break;
+    case effects::Place::contact_switch:
+      append_names(switches, names);
+      break;
   }
   return names;
 }
@@ -121,6 +124,7 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
     }
     case effects::Place::foot:
     case effects::Place::base:
+    case effects::Place::contact_switch:
       return false;
     case effects::Place::body:
     case effects::Place::world:

@@ -253,6 +253,8 @@ void Plant::place_effects() {
           sensor_effects_[s].push_back({sensor, e});
         }
       }
+    } else if (const auto* late = dynamic_cast<const effects::SwitchLaw*>(law)) {
+      switch_effects_.push_back({late, e});
     }
   }
   place_ground(next_state);

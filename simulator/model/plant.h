@@ -110,6 +110,12 @@ class Plant {
   Eigen::RowVectorXd depth_slope(int foot, const double* x);
   Eigen::RowVectorXd depth_slope(int foot, const double* x, const std::vector<ParameterId>& parameters);
 
+  /// How much later than the model says of it a contact switch reads its foot's touchdown (`closes`) or
+  /// lift-off, s: by the effects at it. And d(that)/d(parameters), 1 x parameters.
+  double switch_lateness(const std::string& contact_switch, bool closes) const;
+  Eigen::RowVectorXd switch_lateness_slope(const std::string& contact_switch, bool closes,
+                                           const std::vector<ParameterId>& parameters) const;
+
   /// Pure delay of a motor's command, s.
   double delay(int motor) const;
   std::vector<double> delays() const;   ///< of all motors
@@ -242,6 +248,10 @@ class Plant {
     const effects::SensorLaw* law = nullptr;
     int effect = 0;
   };
+  struct SwitchSlot {
+    const effects::SwitchLaw* law = nullptr;
+    int effect = 0;
+  };
   struct Structure {
     std::unique_ptr<Mechanism> mechanism;
     Eigen::VectorXd extra_inertia;  // on all full coordinates, diagonal
@@ -337,6 +347,7 @@ class Plant {
   std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
   std::vector<StructureSlot> structures_;
   std::vector<std::vector<SensorSlot>> sensor_effects_;
+  std::vector<SwitchSlot> switch_effects_;
   std::vector<Line> motor_lines_;
   Eigen::MatrixXd output_map_, stretch_map_;
   Eigen::VectorXd output_offset_;

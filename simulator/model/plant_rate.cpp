@@ -217,6 +217,34 @@ void Plant::outputs(const double* x, double* y) {
   plate_outputs(x, y);
 }
 
+double Plant::switch_lateness(const std::string& contact_switch, bool closes) const {
+  double late = 0.0;
+  for (const SwitchSlot& slot : switch_effects_) {
+    if (model_.effects[static_cast<std::size_t>(slot.effect)].at == contact_switch) {
+      late += slot.law->lateness(closes, values(slot.effect));
+    }
+  }
+  return late;
+}
+
+Eigen::RowVectorXd Plant::switch_lateness_slope(const std::string& contact_switch, bool closes,
+                                                const std::vector<ParameterId>& parameters) const {
+  Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  for (const SwitchSlot& slot : switch_effects_) {
+    if (model_.effects[static_cast<std::size_t>(slot.effect)].at != contact_switch) {
+      continue;
+    }
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (parameters[i].effect == slot.effect) {
+        effects::Values unit(static_cast<std::size_t>(slot.law->parameter_count()), 0.0);
+        unit[static_cast<std::size_t>(parameters[i].parameter)] = 1.0;
+        slope[static_cast<Eigen::Index>(i)] = slot.law->lateness(closes, unit.data());
+      }
+    }
+  }
+  return slope;
+}
+
 void Plant::carry_force_states(const double* from, const double* to, double h, double* x) const {
   for (const ForceSlot& slot : forces_) {
     if (slot.state < 0 || !slot.active) {

@@ -86,6 +86,7 @@ const std::vector<Row>& hopper_rows() {
       {"ground_stiffness_error", "toe", "scale=1+0.018|0.048|0.14"},
       {"ground_damping_error", "toe", "scale=1+0.3|0.9|3"},
       {"ground_height_error", "toe", "height=1.5e-5|4.2e-5|0.00012"},
+      {"switch_lateness", "toe_switch", "closes_late=2e-3|4e-3|8e-3,opens_late=-1e-3|-3e-3|-6e-3"},
   };
   return kRows;
 }

@@ -96,6 +96,24 @@ TEST(WrittenEquation, IsTheReading) {
   }
 }
 
+TEST(WrittenEquation, IsWhenASwitchReads) {
+  Sampler sampler;
+  int compared = 0;
+  for (const auto& law : all_laws()) {
+    const auto late = std::dynamic_pointer_cast<const SwitchLaw>(law);
+    if (!late) continue;
+    ++compared;
+    const Equations equations(law->declaration().equation);
+    const Values p = sampler.parameters(*law);
+    Symbols symbols = symbols_of(*law, p, {});
+    symbols["touchdown"] = 0.3;
+    symbols["lift_off"] = 0.5;
+    expect_close(0.3 + late->lateness(true, p.data()), equations.value("closing", symbols), "closing");
+    expect_close(0.5 + late->lateness(false, p.data()), equations.value("opening", symbols), "opening");
+  }
+  EXPECT_EQ(compared, 1);
+}
+
 // The evaluator itself, against arithmetic done by hand.
 TEST(Expression, FollowsPrecedenceBarsAndConditions) {
   const Equations e("a = 2 + 3*4^2/8; b = -|1 - x|*2; c = 5 if x > 3 else -x; d = max(a, b) - min(1, x)");

@@ -89,6 +89,15 @@ TEST(NullValues, PassReadingsOn) {
   }
 }
 
+TEST(NullValues, LeaveASwitchInTime) {
+  for (const auto& law : all_laws()) {
+    const auto late = std::dynamic_pointer_cast<const SwitchLaw>(law);
+    if (!late) continue;
+    EXPECT_EQ(late->lateness(true, law->null_values().data()), 0.0);
+    EXPECT_EQ(late->lateness(false, law->null_values().data()), 0.0);
+  }
+}
+
 TEST(NullValues, LeaveTheStructureAlone) {
   for (const auto& law : all_laws()) {
     const auto structure = std::dynamic_pointer_cast<const StructureLaw>(law);

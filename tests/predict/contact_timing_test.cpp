@@ -113,6 +113,38 @@ TEST_F(HopperStance, TheModelItselfStaysAtTheFloor) {
   EXPECT_GT(comparison.channels.back().ratio, 0.6);
 }
 
+// The readings are 4 ms late at touchdown and 2 ms early at lift-off: whole samples, so that nothing is lost
+// in their rounding.
+TEST_F(HopperStance, ALateSwitchIsSeenAndFoundAgain) {
+  model::Model truth = model_;
+  truth.effects.push_back(parse_effect("switch_lateness@toe_switch:closes_late=0.004,opens_late=-0.002",
+                                       model_, model::known_effects()));
+  const Data data({test::hopper_trial(truth, "bounce")}, {});
+  const Comparison as_given = compare(model_, data);
+  EXPECT_GT(as_given.channels.back().ratio, 5.0);
+  ASSERT_EQ(as_given.switches.size(), 2U);  // touchdowns and lift-offs
+  EXPECT_TRUE(as_given.switches[0].closes && as_given.switches[0].is_steady());
+  EXPECT_NEAR(as_given.switches[0].mean, 0.004, 2e-4);
+  EXPECT_NEAR(as_given.switches[1].mean, -0.002, 2e-4);
+  const Comparison known = compare(truth, data);
+  EXPECT_FALSE(known.switches[0].is_steady() || known.switches[1].is_steady());
+  EXPECT_LT(known.channels.back().ratio, 1.4);
+
+  model::Model open = model_;
+  open.effects.push_back(parse_effect("switch_lateness@toe_switch", model_, model::known_effects()));
+  PredictorPool pool(open, data);
+  std::vector<FreeParameter> parameters;
+  for (const FreeParameter& one : free_parameters(open)) {
+    if (one.id.effect == static_cast<int>(open.effects.size()) - 1) {
+      parameters.push_back(one);
+    }
+  }
+  ASSERT_EQ(parameters.size(), 2U);
+  const Estimate found = gauss_newton(pool, parameters, Eigen::Vector2d::Zero(), {}, {10, 1e-4});
+  EXPECT_NEAR(found.theta[0], 0.004, 3e-4);
+  EXPECT_NEAR(found.theta[1], -0.002, 3e-4);
+}
+
 TEST_F(HopperStance, AWrongGroundIsSeenAndFoundAgain) {
   model::Model truth = model_;
   truth.effects.push_back(

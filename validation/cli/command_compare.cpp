@@ -85,6 +85,24 @@ void print_horizons(const std::vector<validation::HorizonError>& errors) {
   }
 }
 
+/// A switch that is off by the same at every landing.
+void print_switches(const std::vector<validation::SwitchTiming>& switches) {
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::SwitchTiming& one : switches) {
+    if (one.is_steady()) {
+      rows.push_back({one.trial, one.name, one.closes ? "closes" : "opens",
+                      fmt::format("{:+.2f} +- {:.2f} ms", 1e3 * one.mean, 1e3 * one.scatter),
+                      fmt::format("{} of {}", one.count, one.closes ? "touchdowns" : "lift-offs")});
+    }
+  }
+  if (!rows.empty()) {
+    fmt::print(
+        "\nContact switches that read late (early: below zero) by the same each time. Then the switch is "
+        "late or closes at a force, rather than the ground wrong (`switch_lateness`, docs/logs.md):\n\n");
+    print_table({"trial", "switch", "", "read less predicted", "mean"}, rows);
+  }
+}
+
 /// What is in none of the errors.
 void print_lost(const std::vector<validation::LostWindow>& lost) {
   constexpr std::size_t kShown = 5;
@@ -119,6 +137,7 @@ void print(const api::Compared& compared) {
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
   print_phases(comparison);
   print_horizons(compared.horizons);
+  print_switches(comparison.switches);
   print_lost(comparison.lost);
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",

@@ -77,7 +77,7 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
 }  // namespace
 
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}};
+  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}, {}};
 }
 
 namespace {
@@ -90,6 +90,7 @@ Comparison compare_trials(const model::Model& model, const Data& data) {
   Comparison comparison = compare(model, kept, estimate);
   comparison.phases = phase_errors(pool, {}, estimate);
   comparison.lost = std::move(lost);
+  comparison.switches = switch_timing(pool, estimate);
   return comparison;
 }
 
@@ -110,6 +111,7 @@ Comparison compare(const model::Model& model, const Data& data) {
   append(tests.windows, comparison.windows);
   append(tests.phases, comparison.phases);
   append(tests.lost, comparison.lost);
+  append(tests.switches, comparison.switches);
   sort_worst_first(comparison.windows);
   comparison.scores.test = tests.scores.test;
   return comparison;

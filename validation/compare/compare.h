@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/compare/phase_errors.h"
+#include "validation/compare/switch_timing.h"
 #include "validation/predict/lost_windows.h"
 
 namespace plumbline::validation {
@@ -28,8 +29,9 @@ struct Comparison {
   std::vector<ChannelError> channels;
   std::vector<WindowError> windows;  ///< worst first
   Scores scores;
-  std::vector<PhaseError> phases;  ///< of compare(model, data) only
-  std::vector<LostWindow> lost;    ///< of compare(model, data) only: not in any error
+  std::vector<PhaseError> phases;      ///< of compare(model, data) only
+  std::vector<LostWindow> lost;        ///< of compare(model, data) only: not in any error
+  std::vector<SwitchTiming> switches;  ///< of compare(model, data) only
 };
 
 /// Predicts every window from its own estimated initial state with the model as it is (nothing fitted), those

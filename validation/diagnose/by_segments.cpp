@@ -1,11 +1,14 @@
 #include "validation/diagnose/by_segments.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "validation/diagnose/diagnoser.h"
 #include "validation/diagnose/finish.h"
 #include "validation/diagnose/judged.h"
+#include "validation/diagnose/look_ahead.h"
+#include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
 namespace {
@@ -16,6 +19,24 @@ Followed followed_further(const Data& data, const Followed& segments, bool in_an
                           const Progress& progress, const Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   return follow_further(fitted_model(diagnosis.final_stage), data, segments, in_any_case);
+}
+
+/// Spread over the trials, at most `most` of each role.
+Followed some_of(const Followed& all, std::size_t most) {
+  Followed some{all.data, {}, all.length};
+  some.data.windows.clear();
+  for (const Role role : {Role::train, Role::held_out}) {
+    const std::vector<int> windows = all.data.windows_of(role);
+    const std::size_t stride = (windows.size() + most - 1) / most;
+    for (std::size_t i = 0; i < windows.size(); i += stride) {
+      const auto w = static_cast<std::size_t>(windows[i]);
+      some.data.windows.push_back(all.data.windows[w]);
+      if (!all.x0.empty()) {
+        some.x0.push_back(all.x0[w]);
+      }
+    }
+  }
+  return some;
 }
 
 class BySegments {
@@ -32,15 +53,37 @@ class BySegments {
     const bool promising =
         Diagnoser(catalogue_, followed, policy_, progress_).begin_on_segments(model, diagnosis_);
     if (!promising && begin_in_flight()) {
+      const Followed segments = followed;
       diagnosis_ = restarted();
       followed = follow_beginnings(model, data_);
       Diagnoser(catalogue_, followed, policy_, progress_).begin_on_segments(model, diagnosis_);
-      if (!names_more(followed)) {
+      if (!names_more(followed) && !names_on_some(model, segments, followed)) {
         return followed;
       }
     } else if (!promising && !names_more(followed)) {
       return followed;
     }
+    return grown(std::move(followed));
+  }
+
+  /// The same from shorter windows of a model that can be followed whole, but is far away there. Nothing
+  /// where what is named on them is no answer, there or on whole windows.
+  std::optional<Followed> run_nearer(const model::Model& model, Followed nearer) {
+    Diagnoser(catalogue_, nearer, policy_, progress_).begin_on_segments(model, diagnosis_);
+    const auto is_answer = [&](const Followed& on) {
+      return is_below(policy_.finished, diagnosis_.final_stage.estimate, on.data);
+    };
+    if (!names_more(nearer) || !is_answer(nearer)) {
+      return std::nullopt;
+    }
+    Followed followed = grown(std::move(nearer));
+    return is_whole(followed) && is_answer(followed) ? std::optional<Followed>(std::move(followed))
+                                                     : std::nullopt;
+  }
+
+ private:
+  /// Longer and longer, up to the whole windows if it can be followed so far.
+  Followed grown(Followed followed) {
     for (bool is_new = true; !is_whole(followed);) {
       segments_ = {followed.data, diagnosis_.final_stage.estimate.x0, followed.length};
       const bool explained = is_below(policy_.finished, diagnosis_.final_stage.estimate, followed.data);
@@ -62,7 +105,6 @@ class BySegments {
     return followed;
   }
 
- private:
   bool begin_in_flight() const {
     return std::any_of(data_.trials.begin(), data_.trials.end(),
                        [](const Trial& trial) { return !trial.switches.empty(); });
@@ -81,6 +123,23 @@ class BySegments {
     numbers_help_ =
         Diagnoser(catalogue_, followed, policy_, progress_)
             .further_on(not_followed(data_, followed) == 0, numbers_help_ || is_whole(followed), diagnosis);
+  }
+
+  /// What shows in a stance only shows in none of the beginnings. Some of the segments tell what it is; then
+  /// all are fitted, and `followed`. False, and all as it was, where nothing is named on them either.
+  bool names_on_some(const model::Model& model, const Followed& segments, Followed& followed) {
+    constexpr std::size_t kMost = 48;  // of each role
+    Diagnosis before = diagnosis_;
+    const Followed some = some_of(segments, kMost);
+    diagnosis_ = restarted();
+    Diagnoser(catalogue_, some, policy_, progress_).begin_on_segments(model, diagnosis_);
+    if (!names_more(some)) {
+      diagnosis_ = std::move(before);
+      return false;
+    }
+    followed = segments;
+    go_on(followed, diagnosis_);
+    return true;
   }
 
   /// Where too many whole windows are lost something is missing, whatever the error of the others.
@@ -125,7 +184,62 @@ class BySegments {
   Followed segments_{data_, {}, 0.0};  // that were followed last, before the whole windows
 };
 
+/// Segments of the windows on which the model as given comes within `hopeless` floors, as long as can be;
+/// none where it does on whole ones, or on none.
+std::optional<Followed> nearer_windows(const model::Model& model, const Data& data, const Policy& policy) {
+  constexpr std::size_t kFew = 6;  // of each role tell how long they are
+  constexpr double kShortest = 1.0 / 16.0;
+  const Data few = data.thinned(kFew);
+  const auto is_near = [&](const Followed& followed) {
+    PredictorPool pool(model, followed.data);
+    return !followed.data.windows.empty() &&
+           is_below(policy.hopeless, estimate_states(pool, followed.x0), followed.data);
+  };
+  if (is_near(follow_at(model, few, data.predict.window))) {
+    return std::nullopt;
+  }
+  for (double share = 0.5; share >= kShortest; share *= 0.5) {
+    if (is_near(follow_at(model, few, share * data.predict.window))) {
+      return follow_at(model, data, share * data.predict.window);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Does any candidate promise to come near the floor on a few of these?
+bool is_promising(const model::Model& model, const effects::Catalogue& catalogue, const Followed& followed,
+                  const Policy& policy, const Progress& progress) {
+  constexpr std::size_t kFew = 12;
+  Stage stage{model, {}, {}};
+  const Data few = followed.data.thinned(kFew);
+  {
+    PredictorPool pool(model, few);
+    stage.estimate = estimate_states(pool, {});
+  }
+  const Tried tried = screen_candidates(stage, catalogue, {}, few, progress);
+  return !tried.hypotheses.empty() && tried.hypotheses.front().promised() <
+                                          2.0 * policy.far * policy.far;  // of train and held-out together
+}
+
 }  // namespace
+
+std::optional<Followed> diagnose_from_nearer(const model::Model& model, const effects::Catalogue& catalogue,
+                                             const Data& data, const Policy& policy, const Progress& progress,
+                                             Diagnosis& diagnosis) {
+  progress("shorter windows, on which the model is nearer", 0.0);
+  const std::optional<Followed> nearer = nearer_windows(model, data, policy);
+  if (!nearer || !is_promising(model, catalogue, *nearer, policy, progress)) {
+    return std::nullopt;
+  }
+  Diagnosis tried;
+  tried.lost = diagnosis.lost;
+  std::optional<Followed> followed =
+      BySegments(catalogue, data, policy, progress, tried).run_nearer(model, *nearer);
+  if (followed) {
+    diagnosis = std::move(tried);
+  }
+  return followed;
+}
 
 Followed diagnose_by_segments(const model::Model& model, const effects::Catalogue& catalogue,
                               const Data& data, const Followed& segments, const Policy& policy,

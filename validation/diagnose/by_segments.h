@@ -1,6 +1,8 @@
 // A diagnosis where the model cannot be followed through whole windows.
 #pragma once
 
+#include <optional>
+
 #include "validation/diagnose/diagnose.h"
 #include "validation/predict/reach.h"
 
@@ -12,5 +14,13 @@ namespace plumbline::validation {
 Followed diagnose_by_segments(const model::Model& model, const effects::Catalogue& catalogue,
                               const Data& data, const Followed& segments, const Policy& policy,
                               const Progress& progress, Diagnosis& diagnosis);
+
+/// Where the model as given is so far from the measurements on whole windows (above Policy::hopeless) that no
+/// straight line tells what is missing: from the longest segments on which it is nearer, if an effect
+/// promises to explain it there. A motion that leaves the model's stays beside it for as long as a window is
+/// short. Nothing where that ends in no answer on whole windows; then `diagnosis` is what it was.
+std::optional<Followed> diagnose_from_nearer(const model::Model& model, const effects::Catalogue& catalogue,
+                                             const Data& data, const Policy& policy, const Progress& progress,
+                                             Diagnosis& diagnosis);
 
 }  // namespace plumbline::validation

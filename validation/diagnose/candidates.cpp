@@ -168,6 +168,13 @@ std::vector<std::pair<std::string, std::vector<std::string>>> joined_places(mode
   return joined;
 }
 
+bool is_recorded(const std::vector<Trial>& trials, const std::string& contact_switch) {
+  return std::any_of(trials.begin(), trials.end(), [&](const Trial& trial) {
+    return std::any_of(trial.switches.begin(), trial.switches.end(),
+                       [&](const SwitchRecord& one) { return one.name == contact_switch; });
+  });
+}
+
 bool is_measured(const std::vector<Trial>& trials, const std::string& sensor) {
   return std::any_of(trials.begin(), trials.end(), [&](const Trial& trial) {
     return std::any_of(trial.measured.begin(), trial.measured.end(),
@@ -280,6 +287,9 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       if (place == Place::sensor && !is_measured(pool.data().trials, at)) {
         continue;
       }
+      if (place == Place::contact_switch && !is_recorded(pool.data().trials, at)) {
+        continue;
+      }
       if (place == Place::body && !is_moving_mass(model.skeleton, at)) {
         continue;
       }
@@ -296,6 +306,8 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
         candidate.scales.inertia = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(at))].mass;
         candidate.scales.position = 0.1;
         candidate.without_effect = parameters_without_effect(model, candidate);
+      } else if (place == Place::contact_switch) {
+        candidate.scales.period = pool.data().trials.front().period;
       } else if (place == Place::foot) {
         candidate.scales.position = resting_depth(model, at);
       } else if (place == Place::base) {

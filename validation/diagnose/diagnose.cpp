@@ -35,9 +35,13 @@ Followed diagnose_windows(const model::Model& model, const effects::Catalogue& c
                           const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   progress("how far the model can be followed", 0.0);
   const Followed followed = follow(model, data);
-  return is_whole(followed)
-             ? diagnose_whole(model, catalogue, followed, policy, progress, diagnosis)
-             : diagnose_by_segments(model, catalogue, data, followed, policy, progress, diagnosis);
+  if (!is_whole(followed)) {
+    return diagnose_by_segments(model, catalogue, data, followed, policy, progress, diagnosis);
+  }
+  if (auto nearer = diagnose_from_nearer(model, catalogue, data, policy, progress, diagnosis)) {
+    return std::move(*nearer);
+  }
+  return diagnose_whole(model, catalogue, followed, policy, progress, diagnosis);
 }
 
 /// Fitted values of what is named.

@@ -213,6 +213,7 @@ void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates
 bool is_of_constants(const effects::Law& law) {
   return dynamic_cast<const effects::StructureLaw*>(&law) != nullptr ||
          dynamic_cast<const effects::SensorLaw*>(&law) != nullptr ||
+         dynamic_cast<const effects::SwitchLaw*>(&law) != nullptr ||
          law.declaration().name == "torque_constant_error";
 }
 

@@ -114,8 +114,11 @@ std::vector<Predictor::Crossing> Predictor::crossings_of(const Window& window) {
       all.back().time = event.time - trial_.time[window.first] + kFarthest;
     } else {
       const SwitchRecord& record = trial_.switches[static_cast<std::size_t>(event.record)];
+      const double late = plant_.switch_lateness(record.name, event.touchdown);
       all.push_back(nearest_crossing(foot, plant_.model().find_switch(record.name)->threshold,
-                                     event.touchdown, event.time - trial_.time[window.first], kFarthest));
+                                     event.touchdown, event.time - late - trial_.time[window.first],
+                                     kFarthest));
+      all.back().time += late;
     }
   }
   return all;
@@ -131,7 +134,8 @@ void Predictor::timing_residuals(const Window& window, Eigen::VectorXd& r) {
 }
 
 // The depth is what it is at the instant t (zero, or where the force is at the switch's threshold, which
-// moves little): dt = -(d(depth)/dx dx + d(depth)/dp dp) / (rate of the depth).
+// moves little): dt = -(d(depth)/dx dx + d(depth)/dp dp) / (rate of the depth), and as much later as the
+// switch.
 void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>& crossings, Eigen::Index node,
                               const Eigen::MatrixXd& before, const Eigen::MatrixXd& behind,
                               const std::vector<model::ParameterId>& ids, Linearisation& out) {
@@ -142,6 +146,7 @@ void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>&
     }
     const ContactEvent& event = trial_.contact_events[static_cast<std::size_t>(window.events[e])];
     const int foot = foot_of_switch_[static_cast<std::size_t>(event.record)];
+    const std::string& name = trial_.switches[static_cast<std::size_t>(event.record)].name;
     const Eigen::Index nz = plant_.positions();
     const Eigen::Index nx = plant_.states();
     const Eigen::MatrixXd S =
@@ -151,7 +156,8 @@ void Predictor::timing_slopes(const Window& window, const std::vector<Crossing>&
     const Eigen::Index row = window.count * channels() + static_cast<Eigen::Index>(e);
     out.Jx.row(row) = scale * slope.head(nx);
     out.Jp.row(row) =
-        scale * (slope.tail(slope.size() - nx) + plant_.depth_slope(foot, states_.col(node).data(), ids));
+        scale * (slope.tail(slope.size() - nx) + plant_.depth_slope(foot, states_.col(node).data(), ids)) +
+        plant_.switch_lateness_slope(name, event.touchdown, ids) / timing_floor(trial_, event.record);
   }
 }
 

@@ -128,6 +128,17 @@ nlohmann::json to_json(const Comparison& comparison) {
   for (const LostWindow& w : comparison.lost) {
     json["lost"].push_back({{"trial", w.trial}, {"from", w.from}, {"to", w.to}, {"reason", w.reason}});
   }
+  json["switches"] = nlohmann::json::array();
+  for (const SwitchTiming& s : comparison.switches) {
+    json["switches"].push_back({{"trial", s.trial},
+                                {"name", s.name},
+                                {"closes", s.closes},
+                                {"count", s.count},
+                                {"mean", s.mean},
+                                {"scatter", s.scatter},
+                                {"floor", s.floor},
+                                {"steady", s.is_steady()}});
+  }
   json["phases"] = nlohmann::json::array();
   for (const PhaseError& p : comparison.phases) {
     json["phases"].push_back({{"trial", p.trial},

@@ -185,8 +185,9 @@ std::string of_segments(const Diagnosis& diagnosis) {
     return "";
   }
   const std::string where = fmt::format(
-      "As given the model loses the motion: it was diagnosed on windows of about {:.2g} s, through contact "
-      "too.",
+      "As given the model departs too far from the motion over whole windows: it was diagnosed on ones of "
+      "about "
+      "{:.2g} s.",
       first);
   if (std::isinf(last)) {
     return where + " With what was found the last error is that of the whole windows.";

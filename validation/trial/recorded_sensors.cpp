@@ -46,7 +46,7 @@ Eigen::VectorXd read_late(const model::ContactSwitch& contact, const Eigen::Vect
   for (Eigen::Index k = 1; k < closed.size(); ++k) {
     if (closed[k] != closed[k - 1]) {
       const double late = closed[k] > 0.0 ? contact.closes_late : contact.opens_late;
-      const Eigen::Index from = std::min(k + std::lround(late / period), closed.size());
+      const Eigen::Index from = std::clamp<Eigen::Index>(k + std::lround(late / period), 0, closed.size());
       read.segment(std::min(k, from), from - std::min(k, from)).setConstant(closed[k - 1]);
       read.tail(closed.size() - from).setConstant(closed[k]);
     }

@@ -12,6 +12,8 @@
 #include "simulator/model/yaml_chain.h"
 #include "simulator/trace/units.h"
 #include "validation/trial/physical_number.h"
+#include "validation/trial/trial_columns.h"
+#include "validation/trial/trial_controllers.h"
 
 namespace plumbline::validation {
 namespace {
@@ -21,16 +23,6 @@ using model::Model;
 using model::quote;
 using model::YamlNode;
 
-template <typename Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  names.reserve(items.size());
-  for (const Item& item : items) {
-    names.push_back(item.name);
-  }
-  return names;
-}
-
 std::vector<std::string> sensor_and_switch_names(const Model& model) {
   std::vector<std::string> names = names_of(model.sensors);
   const std::vector<std::string> switches = names_of(model.switches);
@@ -38,74 +30,11 @@ std::vector<std::string> sensor_and_switch_names(const Model& model) {
   return names;
 }
 
-void check_sensor(const YamlNode& node, const std::string& name, const Model& model) {
-  if (model.find_sensor(name) == nullptr) {
-    node.refuse("sensor " + quote(name),
-                "a sensor of the model" + nearest_names(name, names_of(model.sensors)));
-  }
-}
-
 void check_measured(const YamlNode& node, const std::string& name, const Model& model) {
   if (model.find_sensor(name) == nullptr) {
     node.refuse("sensor " + quote(name),
                 "a sensor of the model" + nearest_names(name, sensor_and_switch_names(model)));
   }
-}
-
-void read_scale(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
-                ColumnUse& use) {
-  if (const auto scale = node.find("scale")) {
-    use.scale = scale->number();
-    if (use.scale == 0.0) {
-      scale->refuse("a number that is not zero");
-    }
-  }
-  if (const auto offset = node.find("offset")) {
-    use.offset = read_physical(*offset, expected_unit, owner);
-  }
-}
-
-/// `true` for an angle, or after what the column wraps around.
-void read_wrap(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
-               ColumnUse& use) {
-  constexpr double kTurn = 6.283185307179586476925286766559;
-  const auto unwrap = node.find("unwrap");
-  if (!unwrap) {
-    return;
-  }
-  if (unwrap->is_map()) {
-    use.turn = read_physical(*unwrap, expected_unit, owner);
-  } else if (unwrap->flag()) {
-    use.turn = kTurn;
-    if (!units_agree(expected_unit, "rad")) {
-      unwrap->refuse("true where nothing turns",
-                     "after what it wraps: {value: ..., unit: " + expected_unit + "}");
-    }
-  }
-  if (unwrap->is_map() && !(use.turn > 0.0)) {
-    unwrap->refuse("a turn that is not above zero", "the range of the column before it begins anew");
-  }
-}
-
-ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
-                      const std::vector<std::string>& further_keys = {}) {
-  if (!node.is_map()) {
-    node.refuse("a map {column: ..., unit: " + expected_unit + "}");
-  }
-  std::vector<std::string> keys{"column", "unit", "scale", "offset"};
-  keys.insert(keys.end(), further_keys.begin(), further_keys.end());
-  node.allow_keys(keys);
-  ColumnUse use;
-  use.name = node.at("column").text();
-  use.place = node.at("column").place();
-  use.expected_unit = expected_unit;
-  use.owner = owner;
-  if (const auto unit = node.find("unit")) {
-    use.unit = unit->text();
-    unit_factor(use.unit, expected_unit, owner, unit->place());  // refuses a wrong one here
-  }
-  read_scale(node, expected_unit, owner, use);
-  return use;
 }
 
 std::vector<std::pair<std::string, YamlNode>> at_least_one(const YamlNode& node, const std::string& what) {
@@ -298,100 +227,6 @@ std::vector<Lock> read_locks(const YamlNode& node, const Model& model) {
   return locks;
 }
 
-double positive_or_refuse(const YamlNode& node, double value) {
-  if (value <= 0.0) {
-    node.refuse("a value that is not positive", "a value above zero; leave the key out for none");
-  }
-  return value;
-}
-
-std::optional<int> velocity_difference(const YamlNode& node) {
-  const auto over = node.find("velocity_over");
-  if (!over) {
-    return std::nullopt;
-  }
-  const double samples = over->number();
-  if (samples != 1.0 && samples != 2.0) {
-    over->refuse("1 or 2 (samples over which the controller differences its measurement)");
-  }
-  return static_cast<int>(samples);
-}
-
-/// What all kinds have: motor, sensor, limit, and over how many samples the velocity is differenced.
-void read_controller_frame(const YamlNode& node, const Model& model, Controller& c) {
-  c.kind = node.at("kind").text();
-  c.motor = node.at("motor").text();
-  c.sensor = node.at("sensor").text();
-  const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
-  check_sensor(node.at("sensor"), c.sensor, model);
-  if (!model.find_sensor(c.sensor)->shows_position()) {
-    node.at("sensor").refuse("a sensor that shows no position",
-                             "the sensor that the controller closes its loop on");
-  }
-  if (const auto limit = node.find("command_limit")) {
-    c.command_limit =
-        positive_or_refuse(*limit, read_physical(*limit, command_unit, "the command of motor " + c.motor));
-  }
-  if (const auto over = velocity_difference(node)) {
-    c.velocity_over = *over;
-  }
-}
-
-/// command = position_gain (reference - measured) + velocity_gain (d(reference)/dt - d(measured)/dt) + added.
-Controller read_pd(const YamlNode& node, const Model& model) {
-  Controller c;
-  read_controller_frame(node, model, c);
-  const std::string command = known_motor(node.at("motor"), c.motor, model).command_unit;
-  const std::string position = model::reading_unit(model, c.sensor);
-  c.position_gain =
-      model::read_quantity(node.at("position_gain"), {command + "/" + position, {}, false, {}}).value;
-  if (const auto gain = node.find("velocity_gain")) {
-    c.velocity_gain = model::read_quantity(*gain, {command + " s/" + position, {}, false, {}}).value;
-  }
-  return c;
-}
-
-ControllerUse read_controller(const YamlNode& node, const Model& model) {
-  std::vector<std::string> keys{"kind",        "motor",         "sensor",
-                                "reference",   "position_gain", "velocity_gain",
-                                "disturbance", "command_limit", "velocity_over"};
-  const bool is_pd = node.at("kind").text() == "pd";
-  if (is_pd) {
-    keys.insert(keys.end(), {"velocity", "reference_velocity"});
-  }
-  node.allow_keys(keys);
-  ControllerUse use;
-  use.place = node.place();
-  use.controller = is_pd ? read_pd(node, model) : read_controller_law(node, model);
-  const Controller& c = use.controller;
-  const std::string position = model::reading_unit(model, c.sensor);
-  use.reference = read_column(node.at("reference"), position, "sensor " + c.sensor, {"unwrap"});
-  read_wrap(node.at("reference"), position, "sensor " + c.sensor, use.reference);
-  if (const auto velocity = node.find("velocity")) {
-    use.velocity = read_column(*velocity, position + "/s", "the rate of sensor " + c.sensor);
-  }
-  if (const auto velocity = node.find("reference_velocity")) {
-    use.reference_velocity = read_column(*velocity, position + "/s", "the rate of sensor " + c.sensor);
-  }
-  if (const auto disturbance = node.find("disturbance")) {
-    use.disturbance = read_column(*disturbance, known_motor(node.at("motor"), c.motor, model).command_unit,
-                                  "the command of motor " + c.motor);
-  }
-  return use;
-}
-
-std::vector<ControllerUse> read_controllers(const YamlNode& node, const Model& model) {
-  std::vector<ControllerUse> uses;
-  std::set<std::string> motors;
-  for (const YamlNode& item : node.items()) {
-    uses.push_back(read_controller(item, model));
-    if (!motors.insert(uses.back().controller.motor).second) {
-      item.refuse("a second controller of motor " + uses.back().controller.motor, "one for each motor");
-    }
-  }
-  return uses;
-}
-
 /// Effects that the robot had in this trial alone. Their states and released ratios would make another state
 /// of the robot's.
 std::vector<model::EffectUse> read_configuration(const YamlNode& node, const Model& model) {
@@ -447,25 +282,6 @@ void check_columns_differ(const TrialFile& file) {
   }
 }
 
-/// A pd computes the command of a motor that has none recorded, from what is measured.
-void check_laws(const TrialFile& file) {
-  for (const ControllerUse& use : file.controllers) {
-    const Controller& c = use.controller;
-    const bool recorded = std::any_of(file.commands.begin(), file.commands.end(),
-                                      [&](const CommandUse& command) { return command.motor == c.motor; });
-    const bool measured = std::any_of(file.measured.begin(), file.measured.end(),
-                                      [&](const MeasuredUse& one) { return one.sensor == c.sensor; });
-    if (!recorded && !measured) {
-      throw InputError(use.place, "sensor " + quote(c.sensor) + " not among `measured`",
-                       "it there: the command of " + c.motor + " is computed from it");
-    }
-    if (recorded && c.kind == "pd") {
-      throw InputError(use.place, "a pd at motor " + c.motor + ", whose command is recorded, too",
-                       "one of them: a pd stands for a command that was not recorded");
-    }
-  }
-}
-
 }  // namespace
 
 Role read_role(const YamlNode& node) {
@@ -511,29 +327,6 @@ std::string placed_unit(const YamlNode& node, const std::string& name, const Mod
   const std::vector<std::string> pulleys = names_of(model.pulleys);
   known.insert(known.end(), pulleys.begin(), pulleys.end());
   node.refuse(quote(name), "a coordinate, motor or pulley of the model" + nearest_names(name, known));
-}
-
-const model::Motor& known_motor(const YamlNode& node, const std::string& name, const Model& model) {
-  const model::Motor* motor = model.find_motor(name);
-  if (motor == nullptr) {
-    node.refuse("motor " + quote(name), "a motor of the model" + nearest_names(name, names_of(model.motors)));
-  }
-  return *motor;
-}
-
-Controller read_controller_law(const YamlNode& node, const Model& model) {
-  Controller c;
-  const std::string kind = node.at("kind").text();
-  if (kind != "cascade_pd") {
-    node.at("kind").refuse("the kind cascade_pd" + nearest_names(kind, {"cascade_pd", "pd"}));
-  }
-  read_controller_frame(node, model, c);
-  const std::string command_unit = known_motor(node.at("motor"), c.motor, model).command_unit;
-  const std::string position = model::reading_unit(model, c.sensor);
-  c.position_gain = model::read_quantity(node.at("position_gain"), {"1/s", {}, false, {}}).value;
-  c.velocity_gain =
-      model::read_quantity(node.at("velocity_gain"), {command_unit + " s/" + position, {}, false, {}}).value;
-  return c;
 }
 
 TrialFile read_trial_file(const std::string& path, const Model& model) {
@@ -597,7 +390,7 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
     file.events = read_events(*events);
   }
   check_columns_differ(file);
-  check_laws(file);
+  check_controllers(file);
   return file;
 }
 

@@ -129,13 +129,17 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
 
 namespace {
 
-/// What the contact switches read, late as the model says.
+/// What the contact switches read, late as the model says, and by the effects at them.
 std::vector<SwitchRecord> switch_records(const model::Model& model, const run::CommandedRun& result,
                                          double period) {
+  const model::Plant plant(model, {});
   std::vector<SwitchRecord> records;
   for (std::size_t s = 0; s < model.switches.size(); ++s) {
     const Eigen::VectorXd closed = result.switches.row(static_cast<Eigen::Index>(s)).transpose();
-    records.push_back(record_of(model.switches[s], "", read_late(model.switches[s], closed, period)));
+    model::ContactSwitch late = model.switches[s];
+    late.closes_late += plant.switch_lateness(late.name, true);
+    late.opens_late += plant.switch_lateness(late.name, false);
+    records.push_back(record_of(model.switches[s], "", read_late(late, closed, period)));
   }
   return records;
 }
