@@ -41,15 +41,16 @@ Values CableStretch::typical(const Scales& scales) const {
 std::vector<Values> CableStretch::starts(const Scales& scales) const {
   const double inertia = guarded(scales).inertia;
   std::vector<Values> grid;
-  // The highest where a light motor drives a heavy load: it swings against the cable by itself.
-  for (const double frequency : {6.0, 18.0, 50.0, 150.0, 450.0}) {
+  const auto add = [&](double frequency, double ratio) {
     const double rate = 2.0 * kPi * frequency;
-    grid.push_back({inertia * rate * rate, 2.0 * kSwinging * inertia * rate});
-  }
+    grid.push_back({inertia * rate * rate, 2.0 * ratio * inertia * rate});
+  };
+  add(6.0, kSwinging);
   for (const double frequency : {18.0, 50.0, 150.0}) {
-    const double rate = 2.0 * kPi * frequency;
-    grid.push_back({inertia * rate * rate, 2.0 * kCreeping * inertia * rate});
+    add(frequency, kSwinging);
+    add(frequency, kCreeping);
   }
+  add(450.0, kSwinging);  // where a light motor drives a heavy load it swings against the cable by itself
   return grid;
 }
 

@@ -69,7 +69,7 @@ TEST_F(Json, CheckOfAModel) {
   constexpr double turn = 6.283185307179586;
   EXPECT_NEAR(sensor["floor"], turn / 4096 / std::sqrt(12.0), 1e-12);
   EXPECT_THAT(keys(model["places"]), UnorderedElementsAre("coordinate", "motor", "ratio", "body", "sensor",
-                                                          "world", "foot", "base"));
+                                                          "world", "foot", "base", "contact switch"));
   EXPECT_EQ(model["places"]["ratio"], json::array({"shoulder"}));
 }
 
@@ -94,7 +94,7 @@ TEST_F(Json, CheckOfATrial) {
 TEST_F(Json, Compare) {
   const json compared = from({"compare", "trials/steps", "trials/swing"});
   EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows", "phases",
-                                                   "horizons", "lost", "test"));
+                                                   "horizons", "lost", "test", "switches"));
   EXPECT_THAT(keys(compared["horizons"][0]),
               UnorderedElementsAre("trial", "channel", "role", "unit", "horizon", "rms", "windows", "lost"));
   ASSERT_EQ(compared["channels"].size(), 4U);

@@ -1,6 +1,7 @@
 #include "validation/diagnose/by_segments.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -185,21 +186,15 @@ class BySegments {
 };
 
 /// Segments of the windows on which the model as given comes within `hopeless` floors, as long as can be;
-/// none where it does on whole ones, or on none.
+/// none where it does on none.
 std::optional<Followed> nearer_windows(const model::Model& model, const Data& data, const Policy& policy) {
   constexpr std::size_t kFew = 6;  // of each role tell how long they are
   constexpr double kShortest = 1.0 / 16.0;
   const Data few = data.thinned(kFew);
-  const auto is_near = [&](const Followed& followed) {
-    PredictorPool pool(model, followed.data);
-    return !followed.data.windows.empty() &&
-           is_below(policy.hopeless, estimate_states(pool, followed.x0), followed.data);
-  };
-  if (is_near(follow_at(model, few, data.predict.window))) {
-    return std::nullopt;
-  }
   for (double share = 0.5; share >= kShortest; share *= 0.5) {
-    if (is_near(follow_at(model, few, share * data.predict.window))) {
+    const Followed some = follow_at(model, few, share * data.predict.window);
+    PredictorPool pool(model, some.data);
+    if (!some.data.windows.empty() && is_below(policy.hopeless, estimate_states(pool, some.x0), some.data)) {
       return follow_at(model, data, share * data.predict.window);
     }
   }
@@ -224,20 +219,33 @@ bool is_promising(const model::Model& model, const effects::Catalogue& catalogue
 }  // namespace
 
 std::optional<Followed> diagnose_from_nearer(const model::Model& model, const effects::Catalogue& catalogue,
-                                             const Data& data, const Policy& policy, const Progress& progress,
-                                             Diagnosis& diagnosis) {
-  progress("shorter windows, on which the model is nearer", 0.0);
-  const std::optional<Followed> nearer = nearer_windows(model, data, policy);
-  if (!nearer || !is_promising(model, catalogue, *nearer, policy, progress)) {
+                                             const Data& data, const Followed& whole, const Policy& policy,
+                                             const Progress& progress, Diagnosis& diagnosis) {
+  progress("the model as given", 0.0);
+  PredictorPool pool(model, whole.data);
+  const Stage given{model, {}, estimate_states(pool, whole.x0)};
+  if (is_below(policy.hopeless, given.estimate, whole.data)) {
     return std::nullopt;
   }
+  const Diagnosis before = diagnosis;
+  diagnosis.ladder.push_back({"as given", given, std::numeric_limits<double>::infinity()});
+  diagnosis.final_stage = given;
   Diagnosis tried;
-  tried.lost = diagnosis.lost;
-  std::optional<Followed> followed =
-      BySegments(catalogue, data, policy, progress, tried).run_nearer(model, *nearer);
-  if (followed) {
-    diagnosis = std::move(tried);
+  tried.lost = before.lost;
+  std::optional<Followed> followed;
+  try {
+    progress("shorter windows, on which the model is nearer", 0.0);
+    const std::optional<Followed> nearer = nearer_windows(model, data, policy);
+    if (nearer && is_promising(model, catalogue, *nearer, policy, progress)) {
+      followed = BySegments(catalogue, data, policy, progress, tried).run_nearer(model, *nearer);
+    }
+  } catch (const Stopped&) {
+    if (!tried.accepted.empty()) {
+      diagnosis = std::move(tried);
+    }
+    throw;
   }
+  diagnosis = followed ? std::move(tried) : before;
   return followed;
 }
 

@@ -20,7 +20,7 @@ Followed diagnose_by_segments(const model::Model& model, const effects::Catalogu
 /// promises to explain it there. A motion that leaves the model's stays beside it for as long as a window is
 /// short. Nothing where that ends in no answer on whole windows; then `diagnosis` is what it was.
 std::optional<Followed> diagnose_from_nearer(const model::Model& model, const effects::Catalogue& catalogue,
-                                             const Data& data, const Policy& policy, const Progress& progress,
-                                             Diagnosis& diagnosis);
+                                             const Data& data, const Followed& whole, const Policy& policy,
+                                             const Progress& progress, Diagnosis& diagnosis);
 
 }  // namespace plumbline::validation

@@ -38,7 +38,7 @@ Followed diagnose_windows(const model::Model& model, const effects::Catalogue& c
   if (!is_whole(followed)) {
     return diagnose_by_segments(model, catalogue, data, followed, policy, progress, diagnosis);
   }
-  if (auto nearer = diagnose_from_nearer(model, catalogue, data, policy, progress, diagnosis)) {
+  if (auto nearer = diagnose_from_nearer(model, catalogue, data, followed, policy, progress, diagnosis)) {
     return std::move(*nearer);
   }
   return diagnose_whole(model, catalogue, followed, policy, progress, diagnosis);
