@@ -129,7 +129,7 @@ class BySegments {
   /// What shows in a stance only shows in none of the beginnings. Some of the segments tell what it is; then
   /// all are fitted, and `followed`. False, and all as it was, where nothing is named on them either.
   bool names_on_some(const model::Model& model, const Followed& segments, Followed& followed) {
-    constexpr std::size_t kMost = 48;  // of each role
+    constexpr std::size_t kMost = 16;  // of each role
     Diagnosis before = diagnosis_;
     const Followed some = some_of(segments, kMost);
     diagnosis_ = restarted();
@@ -189,13 +189,14 @@ class BySegments {
 /// none where it does on none.
 std::optional<Followed> nearer_windows(const model::Model& model, const Data& data, const Policy& policy) {
   constexpr std::size_t kFew = 6;  // of each role tell how long they are
-  constexpr double kShortest = 1.0 / 16.0;
+  constexpr int kMostParts = 16;
   const Data few = data.thinned(kFew);
-  for (double share = 0.5; share >= kShortest; share *= 0.5) {
-    const Followed some = follow_at(model, few, share * data.predict.window);
+  for (int parts = 2; parts <= kMostParts; parts *= 2) {
+    const double length = data.predict.window / parts;
+    const Followed some = follow_at(model, few, length);
     PredictorPool pool(model, some.data);
     if (!some.data.windows.empty() && is_below(policy.hopeless, estimate_states(pool, some.x0), some.data)) {
-      return follow_at(model, data, share * data.predict.window);
+      return follow_at(model, data, length);
     }
   }
   return std::nullopt;
@@ -245,7 +246,11 @@ std::optional<Followed> diagnose_from_nearer(const model::Model& model, const ef
     }
     throw;
   }
-  diagnosis = followed ? std::move(tried) : before;
+  if (followed) {
+    diagnosis = std::move(tried);
+  } else {
+    diagnosis = before;
+  }
   return followed;
 }
 
