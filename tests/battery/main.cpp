@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include "tests/battery/report.h"
@@ -43,7 +44,7 @@ std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector
   }
   const auto is_left_out = [&](const Case& one) {
     if (std::find(robots.begin(), robots.end(), one.robot) == robots.end() ||
-        (world != World::own && !worlds::can_play(one))) {
+        (world != World::own && !worlds::can_play(one, world == World::mujoco))) {
       return true;
     }
     return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -113,10 +114,22 @@ std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inp
   return results;
 }
 
+/// Why the world plays none of the cases that were asked for, each reason once.
+std::set<std::string> reasons(const Inputs& inputs) {
+  std::set<std::string> all;
+  for (const Case& one : chosen(inputs.rigs, inputs.only, World::own)) {
+    all.insert(worlds::why_not(one, inputs.run.world == World::mujoco));
+  }
+  return all;
+}
+
 int run(const Inputs& inputs) {
   const std::vector<Case> cases =
       subset(chosen(inputs.rigs, inputs.only, inputs.run.world), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
+    for (const std::string& reason : reasons(inputs)) {
+      fmt::print(stderr, "battery: {}\n", reason);
+    }
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
   }

@@ -23,7 +23,7 @@ class Ladder : public RobotFolder {
 TEST_F(Ladder, BaseFirstAndTheErrorFalls) {
   const Outcome outcome = succeed(
       {"ladder", "trials/chirp", "trials/swing", "--model", "robot/overlay.yaml", "--json", "ladder.json"});
-  EXPECT_THAT(outcome.out, HasSubstr("overlay.yaml + coulomb@drive"));
+  EXPECT_THAT(outcome.out, HasSubstr("(2) overlay.yaml + coulomb@drive"));
   EXPECT_THAT(outcome.out, HasSubstr("[2] swing (held-out)"));
   EXPECT_THAT(outcome.out, HasSubstr("[2] inverse"));
   EXPECT_THAT(outcome.out, HasSubstr("no closed loop, no controller is known"));
@@ -32,7 +32,11 @@ TEST_F(Ladder, BaseFirstAndTheErrorFalls) {
   ASSERT_EQ(json["models"].size(), 2U);
   const nlohmann::json& bare = json["models"][0];
   const nlohmann::json& full = json["models"][1];
-  EXPECT_THAT(keys(bare), UnorderedElementsAre("file", "name", "train", "held_out", "test", "trials"));
+  EXPECT_THAT(keys(bare),
+              UnorderedElementsAre("file", "name", "train", "held_out", "test", "windows", "trials"));
+  EXPECT_EQ(bare["windows"]["held_out"], bare["held_out"]);
+  EXPECT_THAT(outcome.out, HasSubstr("Each phase of the motion"));
+  EXPECT_THAT(outcome.out, HasSubstr("Each channel (root mean square of measured less predicted"));
   EXPECT_EQ(bare["name"], "model.yaml");
   EXPECT_LT(full["train"], 0.5 * bare["train"].get<double>());
   EXPECT_LT(full["held_out"], 0.5 * bare["held_out"].get<double>());

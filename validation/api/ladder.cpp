@@ -4,9 +4,9 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/compare/compare.h"
 #include "validation/compare/rung_name.h"
 #include "validation/predict/zero_errors.h"
+#include "validation/report/result_json.h"
 
 namespace plumbline::api {
 namespace {
@@ -29,8 +29,7 @@ LadderRung climb(const Loaded& loaded, const validation::EffectNames& known) {
   rung.name = validation::rung_name(loaded.model, known);
   rung.has_train = loaded.data->has(Role::train);
   rung.has_held_out = loaded.data->has(Role::held_out);
-  rung.scores =
-      validation::compare(validation::with_zero_errors(loaded.model, *loaded.data), *loaded.data).scores;
+  rung.windows = validation::compare(validation::with_zero_errors(loaded.model, *loaded.data), *loaded.data);
   rung.trials = validation::whole_trials(loaded.model, *loaded.data);
   return rung;
 }
@@ -62,9 +61,11 @@ nlohmann::json to_json(const Ladder& ladder) {
   nlohmann::json json{{"models", nlohmann::json::array()}, {"published", nlohmann::json::array()}};
   for (const LadderRung& rung : ladder.rungs) {
     nlohmann::json model{{"file", rung.file}, {"name", rung.name}, {"trials", nlohmann::json::array()}};
-    model["train"] = rung.has_train ? nlohmann::json(rung.scores.train) : nlohmann::json();
-    model["held_out"] = rung.has_held_out ? nlohmann::json(rung.scores.held_out) : nlohmann::json();
-    model["test"] = rung.scores.test > 0.0 ? nlohmann::json(rung.scores.test) : nlohmann::json();
+    model["train"] = rung.has_train ? nlohmann::json(rung.windows.scores.train) : nlohmann::json();
+    model["held_out"] = rung.has_held_out ? nlohmann::json(rung.windows.scores.held_out) : nlohmann::json();
+    model["test"] =
+        rung.windows.scores.test > 0.0 ? nlohmann::json(rung.windows.scores.test) : nlohmann::json();
+    model["windows"] = validation::to_json(rung.windows);
     for (const validation::WholeTrial& trial : rung.trials) {
       model["trials"].push_back(validation::to_json(trial));
     }

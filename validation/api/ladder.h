@@ -7,6 +7,7 @@
 
 #include "validation/api/loading.h"
 #include "validation/closed_loop/reference.h"
+#include "validation/compare/compare.h"
 #include "validation/diagnose/screen.h"
 #include "validation/report/whole_trials.h"
 
@@ -16,7 +17,7 @@ struct LadderRung {
   std::string file, name;
   std::vector<std::string> lineage;
   bool has_train = false, has_held_out = false;
-  validation::Scores scores;
+  validation::Comparison windows;  ///< errors in windows from their own start
   std::vector<validation::WholeTrial> trials;
 };
 

@@ -1,14 +1,17 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include "validation/api/ladder.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
+#include "validation/cli/ladder_errors.h"
 #include "validation/cli/output.h"
 
 namespace plumbline::cli {
@@ -124,30 +127,54 @@ std::vector<std::vector<std::string>> published_rows(const std::vector<Reference
   return rows;
 }
 
+/// What is true of several trials or models is said once.
+class Notes {
+ public:
+  void add(const std::string& what, const std::string& of) {
+    auto note =
+        std::find_if(notes_.begin(), notes_.end(), [&](const auto& one) { return one.first == what; });
+    if (note == notes_.end()) {
+      notes_.push_back({what, {}});
+      note = notes_.end() - 1;
+    }
+    if (std::find(note->second.begin(), note->second.end(), of) == note->second.end()) {
+      note->second.push_back(of);
+    }
+  }
+
+  void print() const {
+    for (const auto& [what, of] : notes_) {
+      fmt::print("{}: {}\n", fmt::join(of, ", "), what);
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes_;
+};
+
 void print_notes(const std::vector<api::LadderRung>& rungs) {
-  std::set<std::string> notes;
-  for (const api::LadderRung& rung : rungs) {
-    for (const WholeTrial& trial : rung.trials) {
+  Notes notes;
+  for (std::size_t m = 0; m < rungs.size(); ++m) {
+    for (const WholeTrial& trial : rungs[m].trials) {
       if (!trial.inverse.not_available.empty()) {
-        notes.insert(fmt::format("{}, {}: no inverse model, {}.", rung.name, trial.trial,
-                                 trial.inverse.not_available));
+        notes.add(fmt::format("no inverse model with ({}), {}.", m + 1, trial.inverse.not_available),
+                  trial.trial);
       }
       if (!trial.loop.not_available.empty()) {
-        notes.insert(fmt::format("{}: no closed loop, {}.", trial.trial, trial.loop.not_available));
+        notes.add(fmt::format("no closed loop, {}.", trial.loop.not_available), trial.trial);
       }
       for (const LoopError& error : trial.loop.loops) {
         if (error.disturbance_factor != 0.0 && std::abs(error.disturbance_factor - 1.0) > kWorthSaying) {
-          notes.insert(
-              fmt::format("{}: the recorded command of {} shows a disturbance {:.4f} times its column "
+          notes.add(
+              fmt::format("the recorded command of {} shows a disturbance {:.4f} times its column "
                           "(least squares on the controller's own equation); the column is used as it is.",
-                          trial.trial, error.motor, error.disturbance_factor));
+                          error.motor, error.disturbance_factor),
+              trial.trial);
         }
       }
     }
   }
-  for (const std::string& note : notes) {
-    fmt::print("{}\n", note);
-  }
+  notes.print();
 }
 
 void print(const std::vector<api::LadderRung>& rungs, const std::vector<ReferenceValue>& published) {
@@ -157,9 +184,11 @@ void print(const std::vector<api::LadderRung>& rungs, const std::vector<Referenc
     head.push_back(column.head);
   }
   std::vector<std::vector<std::string>> rows;
-  for (const api::LadderRung& rung : rungs) {
-    std::vector<std::string> row{rung.name, score_text(rung.has_train, rung.scores.train),
-                                 score_text(rung.has_held_out, rung.scores.held_out)};
+  for (std::size_t m = 0; m < rungs.size(); ++m) {
+    const api::LadderRung& rung = rungs[m];
+    std::vector<std::string> row{fmt::format("({}) {}", m + 1, rung.name),
+                                 score_text(rung.has_train, rung.windows.scores.train),
+                                 score_text(rung.has_held_out, rung.windows.scores.held_out)};
     for (const ErrorColumn& column : columns) {
       row.push_back(percent_text(value_of(rung, column)));
     }
@@ -168,11 +197,11 @@ void print(const std::vector<api::LadderRung>& rungs, const std::vector<Referenc
   for (const std::vector<std::string>& row : published_rows(published, columns)) {
     rows.push_back(row);
   }
-  if (rungs.front().scores.test > 0.0) {
+  if (rungs.front().windows.scores.test > 0.0) {
     constexpr std::ptrdiff_t kBehindHeldOut = 3;
     head.insert(head.begin() + kBehindHeldOut, "test");
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const std::string text = i < rungs.size() ? score_text(true, rungs[i].scores.test) : "";
+      const std::string text = i < rungs.size() ? score_text(true, rungs[i].windows.scores.test) : "";
       rows[i].insert(rows[i].begin() + kBehindHeldOut, text);
     }
   }
@@ -188,6 +217,7 @@ void print(const std::vector<api::LadderRung>& rungs, const std::vector<Referenc
   }
   fmt::print("\n");
   print_table(head, rows);
+  print_errors(rungs);
   fmt::print("\n");
   print_notes(rungs);
   if (!published_rows(published, columns).empty()) {

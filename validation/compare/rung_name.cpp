@@ -1,6 +1,9 @@
 #include "validation/compare/rung_name.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
+#include <vector>
 
 namespace plumbline::validation {
 
@@ -13,14 +16,21 @@ EffectNames effect_names(const model::Model& model) {
 }
 
 std::string rung_name(const model::Model& model, const EffectNames& known) {
-  std::string name = std::filesystem::path(model.file).filename().string();
+  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kOfMany = 2;
+  std::vector<std::string> added;
   for (const model::EffectUse& use : model.effects) {
     const std::string label = use.law->declaration().name + "@" + use.at;
     if (!known.empty() && known.count(label) == 0) {
-      name += " + " + label;
+      added.push_back(label);
     }
   }
-  return name;
+  const std::size_t shown = added.size() > kMost ? kOfMany : added.size();
+  std::string name = std::filesystem::path(model.file).filename().string();
+  for (std::size_t i = 0; i < shown; ++i) {
+    name += " + " + added[i];
+  }
+  return shown < added.size() ? fmt::format("{} and {} more effects", name, added.size() - shown) : name;
 }
 
 }  // namespace plumbline::validation

@@ -13,7 +13,8 @@ using EffectNames = std::set<std::string>;
 
 EffectNames effect_names(const model::Model& model);
 
-/// The model file's name, and the effects that it has and the model below it (`known`) has not.
+/// The model file's name, and the effects that it has and the model below it (`known`) has not:
+/// "overlay.yaml + coulomb@drive"; of more than three the first two and how many more.
 std::string rung_name(const model::Model& model, const EffectNames& known);
 
 }  // namespace plumbline::validation

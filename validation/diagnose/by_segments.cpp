@@ -9,6 +9,7 @@
 #include "validation/diagnose/finish.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/look_ahead.h"
+#include "validation/predict/carried_states.h"
 #include "validation/predict/initial_states.h"
 
 namespace plumbline::validation {
@@ -138,7 +139,8 @@ class BySegments {
       diagnosis_ = std::move(before);
       return false;
     }
-    followed = segments;
+    followed = segments;  // with the states of what is named, too
+    followed.x0 = carried_states(model, fitted_model(diagnosis_.final_stage), segments.data, segments.x0);
     go_on(followed, diagnosis_);
     return true;
   }
@@ -206,9 +208,8 @@ std::optional<Followed> nearer_windows(const model::Model& model, const Data& da
 /// nearly all laws take much of a large error, and what releases a ratio takes most: only what explains it
 /// whole is worth the searches.
 bool is_promising(const model::Model& model, const effects::Catalogue& catalogue, const Followed& followed,
-                  const Progress& progress) {
+                  const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFew = 12;
-  constexpr double kPromised = 1.5;  // floors
   Stage stage{model, {}, {}};
   const Data few = followed.data.thinned(kFew);
   {
@@ -217,7 +218,8 @@ bool is_promising(const model::Model& model, const effects::Catalogue& catalogue
   }
   const Tried tried = screen_candidates(stage, catalogue, {}, few, progress);
   return std::any_of(tried.hypotheses.begin(), tried.hypotheses.end(), [&](const Hypothesis& one) {
-    return one.tangent && one.promised() < 2.0 * kPromised * kPromised;  // of train and held-out together
+    return one.tangent &&
+           one.promised() < 2.0 * policy.nearer * policy.nearer;  // of train and held-out together
   });
 }
 
@@ -241,7 +243,7 @@ std::optional<Followed> diagnose_from_nearer(const model::Model& model, const ef
   try {
     progress("shorter windows, on which the model is nearer", 0.0);
     const std::optional<Followed> nearer = nearer_windows(model, data, policy);
-    if (nearer && is_promising(model, catalogue, *nearer, progress)) {
+    if (nearer && is_promising(model, catalogue, *nearer, policy, progress)) {
       followed = BySegments(catalogue, data, policy, progress, tried).run_nearer(model, *nearer);
     }
   } catch (const Stopped&) {

@@ -217,11 +217,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   // What is named already comes first: where it leaves much, the rest is described rather than searched for.
   Policy policy = policy_;
   policy.dear = diagnosis.accepted.empty();
-  // Far above the floor many laws would each take a little off what is left.
   const bool is_far = !is_below(policy_.hopeless, diagnosis.final_stage.estimate, data_);
-  if (is_far && !diagnosis.accepted.empty()) {
-    policy.material = std::max(policy.material, policy_.material_far);
-  }
   Tried tried =
       screen_candidates(diagnosis.final_stage, catalogue_, names_of(diagnosis.accepted), data_, progress_);
   // Far above the floor the commonest truth comes first: it may save the refits of all single effects.

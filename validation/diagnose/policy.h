@@ -18,10 +18,11 @@ struct Policy {
   double finished = 1.2;   ///< what was named is an answer
   double far = 3.0;        ///< more is missing than one effect
   double hopeless = 20.0;  ///< so much is missing that no pair is looked for
+  double nearer =
+      1.5;  ///< above it: what a linear law must promise on shorter windows to be sought there first
 
   // When a law is named.
   double material = 0.05;     ///< least relative fall of the error that counts (held-out where there is one)
-  double material_far = 0.1;  ///< the same above `hopeless`, once something is named: many laws take a little
   double simpler = 0.02;      ///< relative rise of the error at which a simpler law is still preferred
   double simpler_far = 0.25;  ///< the same above `far`, where constants make up for what else is missing
   double stable = 0.7;        ///< least share of resamples that choose the effect, its family or a rival

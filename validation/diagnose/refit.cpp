@@ -363,7 +363,9 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
                        bool is_other_start = false) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypothesis.candidate)];
     progress("refitting " + candidate.label(), done);
-    const bool is_asked_first = is_above && !refits.empty() && (is_other_start || has_corners(hypothesis));
+    // In segments a corner is rarely met, but another start through stiff ground takes minutes, too.
+    const bool is_asked_first = !refits.empty() && ((is_above && has_corners(hypothesis)) ||
+                                                    ((is_above || straight) && is_other_start));
     try {
       if (is_asked_first &&
           !is_better_on_some(stage, candidate, hypothesis, data, {4, thorough}, refits.front())) {
@@ -416,8 +418,11 @@ std::vector<Refit> refit(const Stage& stage, const std::vector<Candidate>& candi
   finish(refits, candidates, data, policy, progress);
   // Where hundreds of floors remain beside what is named, another start of a threshold decides nothing.
   if (!refits.empty() && !at_floor(refits, data, policy) && (!is_far || policy.dear)) {
-    for (const Hypothesis* other : other_starts(refits, hypotheses)) {
-      add(*other, 0.9, other->promised() < worth, true);
+    std::vector<const Hypothesis*> others = other_starts(refits, hypotheses);
+    std::stable_partition(others.begin(), others.end(),
+                          [&](const Hypothesis* one) { return !has_corners(*one); });
+    for (std::size_t i = 0; i < others.size() && !at_floor(refits, data, policy); ++i) {
+      add(*others[i], 0.9, others[i]->promised() < worth, true);
     }
     keep_best_of_each(refits);
     finish(refits, candidates, data, policy, progress);

@@ -9,6 +9,7 @@
 
 #include "simulator/model/robot_file.h"
 #include "validation/compare/rung_name.h"
+#include "validation/predict/zero_errors.h"
 #include "validation/report/encode.h"
 #include "validation/report/model_json.h"
 #include "validation/report/parameters_json.h"
@@ -111,10 +112,11 @@ std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catal
     const std::string& file = model.lineage[i];
     progress("comparing " + std::filesystem::path(file).filename().string(),
              static_cast<double>(i) / static_cast<double>(model.lineage.size()));
-    const model::Model one = model::read_model(file, catalogue);
+    const model::Model bare = model::read_model(file, catalogue);
+    const model::Model one = with_zero_errors(bare, data);
     PredictorPool pool(one, data);
-    ladder.push_back({rung_name(one, known), {one, {}, estimate_states(pool)}});
-    known = effect_names(one);
+    ladder.push_back({rung_name(bare, known), {one, {}, estimate_states(pool)}});
+    known = effect_names(bare);
   }
   return ladder;
 }

@@ -26,8 +26,9 @@ nlohmann::json report_json(const ReportContent& content, const Data& data, const
 /// The page: HTML, its style, its scripts and these data in one text that needs nothing else.
 std::string report_page(const nlohmann::json& report);
 
-/// The models that `model` stands on and itself, each compared as it is: a ladder without a diagnosis. Models
-/// of one lineage have the same sensors and motors, so that the same data do for all.
+/// The models that `model` stands on and itself, each compared as it is, zero errors opened (zero_errors.h):
+/// a ladder without a diagnosis. Models of one lineage have the same sensors and motors, so that the same
+/// data do for all.
 std::vector<Rung> lineage_ladder(const model::Model& model, const effects::Catalogue& catalogue,
                                  const Data& data, const Progress& progress);
 

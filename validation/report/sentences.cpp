@@ -53,10 +53,10 @@ std::string moved_numbers(const Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < std::min(own.size(), kShown); ++i) {
     text += fmt::format("{}{} by {:+.1f}", i > 0 ? ", " : "", own[i].label, own[i].shift());
   }
-  if (own.size() > kShown) {
-    text += fmt::format(", and {} more", own.size() - kShown);
+  if (!text.empty()) {
+    text += " deviations";
   }
-  return text.empty() ? text : text + " deviations";
+  return own.size() > kShown ? text + fmt::format(", and {} more", own.size() - kShown) : text;
 }
 
 /// "the held-out error falls from 151.20 to 65.50 times the floor: 81.2 % of the squared error above the

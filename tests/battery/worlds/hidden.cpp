@@ -27,7 +27,8 @@ double stop_force(const Hidden& e, const PlaceMotion& m) {
     return 0.0;
   }
   const double in = e["side"] * m.v;
-  const double root = in > 0.0 ? std::sqrt(in) : 0.0;
+  const double rounding = e["rounding"];
+  const double root = in > 0.0 ? std::sqrt(in + rounding) - std::sqrt(rounding) : 0.0;
   return -e["side"] *
          (e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in + e["root_damping"] * root);
 }
@@ -38,8 +39,6 @@ double one_sided_spring(const Hidden& e, const PlaceMotion& m) {
              ? 0.0
              : -e["side"] * (e["stiffness"] * deep + e["preload"] * std::tanh(deep / e["smoothing_length"]));
 }
-
-using Law = double (*)(const Hidden&, const PlaceMotion&);
 
 struct Named {
   const char* name;
@@ -112,7 +111,7 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 14> kOthers{"torque_bias",
+constexpr std::array<const char*, 15> kOthers{"torque_bias",
                                               "torque_constant_error",
                                               "actuator_lag",
                                               "command_delay",
@@ -125,13 +124,17 @@ constexpr std::array<const char*, 14> kOthers{"torque_bias",
                                               "encoder_offset",
                                               "encoder_scale",
                                               "ground_stiffness_error",
-                                              "ground_damping_error"};
+                                              "ground_damping_error",
+                                              "ground_friction_error"};
 
 }  // namespace
 
-double Hidden::operator[](const std::string& name) const {
-  const auto found = values.find(name);
-  return found == values.end() ? 0.0 : found->second;
+double Hidden::operator[](std::string_view name) const {
+  // Few, and looked up in every step: most differ in their length already.
+  for (const auto& [known, value] : values) {
+    if (known.size() == name.size() && name == known) return value;
+  }
+  return 0.0;
 }
 
 Hidden hidden_from(const std::string& text) {
@@ -156,6 +159,11 @@ Hidden hidden_from(const std::string& text) {
 }
 
 bool is_force(const Hidden& effect) { return find(effect.effect) != nullptr; }
+
+Law law_of(const Hidden& effect) {
+  const Named* found = find(effect.effect);
+  return found == nullptr ? nullptr : found->law;
+}
 
 bool has_state(const Hidden& effect) { return effect.effect == "lugre"; }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumbline::battery::worlds {
@@ -12,7 +13,7 @@ namespace plumbline::battery::worlds {
 struct Hidden {
   std::string effect, at;
   std::map<std::string, double> values;
-  double operator[](const std::string& name) const;
+  double operator[](std::string_view name) const;
 };
 
 /// Reads "coulomb@mLA:level=0.01,smoothing_speed=0.03". Throws std::invalid_argument.
@@ -27,6 +28,9 @@ struct PlaceMotion {
 bool is_force(const Hidden& effect);
 /// Does it need a state of its own (bristles)?
 bool has_state(const Hidden& effect);
+using Law = double (*)(const Hidden& effect, const PlaceMotion& m);
+/// The force of an effect that follows from motion and load alone; nullptr for others.
+Law law_of(const Hidden& effect);
 /// Force on the place; `state` as of the bristles. The sign of a velocity is tanh(v/s), with s a third of the
 /// effect's smoothing_speed.
 double force(const Hidden& effect, const PlaceMotion& m, double state);

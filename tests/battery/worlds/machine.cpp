@@ -1,5 +1,6 @@
 #include "tests/battery/worlds/machine.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,9 @@ Machine::Machine(const Rig& rig, const std::vector<std::string>& locked, const V
   delay_.assign(motors, 0.0);
   build_coupling(locked, start);
   states_ = 2 * positions();
+  add_bristles();
   add_effects();
+  add_light();
 }
 
 // A motor is tied to its coordinate by its ratio, or, where its gear gives, moves by itself. A locked motor
@@ -48,7 +51,7 @@ void Machine::build_coupling(const std::vector<std::string>& locked, const Vecto
     const bool is_soft = gives(rig_, motor);
     const bool is_locked = contains(locked, motor.name);
     if (is_locked) {
-      offset_[n_ + i] = motor.ratio * start[motor.drives];
+      offset_[n_ + i] = motor.at(start);
       if (!is_soft) {
         held[static_cast<std::size_t>(motor.drives)] = true;
         offset_[motor.drives] = start[motor.drives];
@@ -57,6 +60,9 @@ void Machine::build_coupling(const std::vector<std::string>& locked, const Vecto
       columns.push_back(unit(all, n_ + i));
     } else {
       of_link(n_ + i, motor.drives) = motor.ratio;
+      if (motor.also >= 0) {
+        of_link(n_ + i, motor.also) = motor.also_ratio;
+      }
     }
   }
   for (Eigen::Index k = n_; k-- > 0;) {
@@ -67,6 +73,13 @@ void Machine::build_coupling(const std::vector<std::string>& locked, const Vecto
   S_ = Matrix::Zero(all, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
     S_.col(static_cast<Eigen::Index>(c)) = columns[c];
+  }
+  free_ = S_.rows() == S_.cols() && S_.isIdentity(0.0);
+}
+
+void Machine::add_bristles() {
+  for (const Ground& ground : rig_.grounds) {
+    bristle_state_.push_back(has_bristles(ground) ? static_cast<int>(states_++) : -1);
   }
 }
 
@@ -102,9 +115,13 @@ void Machine::add_effects() {
           acting.row.setZero();
           acting.row[n_ + acting.motor] = 1.0;
           acting.row[rig_.motors[m].drives] = -rig_.motors[m].ratio;
+          if (rig_.motors[m].also >= 0) {
+            acting.row[rig_.motors[m].also] = -rig_.motors[m].also_ratio;
+          }
         }
       }
     }
+    acting.law = law_of(effect);
     if (has_state(effect)) {
       acting.state = static_cast<int>(states_++);
     }
@@ -122,8 +139,9 @@ Eigen::Index Machine::own_row(Eigen::Index column) const {
   return 0;
 }
 
-State Machine::state_of(const Vector& full, const Vector& full_rate) const {
+State Machine::state_of(const Vector& full, const Vector& full_rate, const Vector& bristles) const {
   State x = State::Zero(states_);
+  x.segment(2 * positions(), bristles.size()) = bristles;
   for (Eigen::Index c = 0; c < positions(); ++c) {
     x[c] = full[own_row(c)];
     x[positions() + c] = full_rate[own_row(c)];
@@ -131,19 +149,34 @@ State Machine::state_of(const Vector& full, const Vector& full_rate) const {
   return x;
 }
 
-State Machine::start_state(const Vector& commands) const {
+State Machine::start_state(const Vector& commands, const Vector& links_rate) const {
   Vector full = Vector::Zero(offset_.size());
+  Vector full_rate = full;
   full.head(n_) = start_;
-  for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
-    full[n_ + static_cast<Eigen::Index>(i)] = rig_.motors[i].ratio * start_[rig_.motors[i].drives];
+  if (links_rate.size() > 0) {
+    full_rate.head(n_) = links_rate;
   }
-  State x = state_of(full, Vector::Zero(full.size()));
+  for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
+    full[n_ + static_cast<Eigen::Index>(i)] = rig_.motors[i].at(full);
+    full_rate[n_ + static_cast<Eigen::Index>(i)] = rig_.motors[i].at(full_rate);
+  }
+  State x = state_of(full, full_rate);
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
     if (lag_state_[i] >= 0) {
       x[lag_state_[i]] = commands[static_cast<Eigen::Index>(i)];
     }
   }
   return x;
+}
+
+double Machine::force_of(const Acting& one, const State& x, const Vector& full, const Vector& full_rate,
+                         double load) const {
+  const PlaceMotion motion{one.row.dot(full), one.row.dot(full_rate), load};
+  if (one.compliance) {
+    return compliance_force(one.effect, motion.x, motion.v);
+  }
+  return one.law != nullptr ? one.law(one.effect, motion)
+                            : force(one.effect, motion, one.state >= 0 ? x[one.state] : 0.0);
 }
 
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
@@ -160,109 +193,82 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
     Q[n_ + m] = rig_.motors[i].torque_per_unit * u + bias_[i];
   }
   for (const Acting& one : acting_) {
-    const PlaceMotion motion{one.row.dot(full), one.row.dot(full_rate),
-                             one.motor >= 0 && !one.compliance ? loads[one.motor] : 0.0};
+    const double load = one.motor >= 0 && !one.compliance ? loads[one.motor] : 0.0;
+    const double acts = force_of(one, x, full, full_rate, load);
+    Q += one.row * acts;
     if (one.compliance) {
-      const double on_motor = compliance_force(one.effect, motion.x, motion.v);
-      Q += one.row * on_motor;
-      passed[one.motor] -= on_motor;
-      continue;
-    }
-    const double state = one.state >= 0 ? x[one.state] : 0.0;
-    Q += one.row * force(one.effect, motion, state);
-    if (one.state >= 0) {
-      rate[one.state] = state_rate(one.effect, motion, state);
+      passed[one.motor] -= acts;
+    } else if (one.state >= 0) {
+      rate[one.state] =
+          state_rate(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x[one.state]);
     }
   }
-  for (const Ground& ground : rig_.grounds) {
-    Q.head(n_) += ground.row * ground_force_of(rig_, ground, full, full_rate);
+  for (std::size_t g = 0; g < rig_.grounds.size(); ++g) {
+    const int state = bristle_state_[g];
+    double unused = 0.0;
+    press(rig_, rig_.grounds[g], full, full_rate, state >= 0 ? x[state] : 0.0, Q,
+          state >= 0 ? rate[state] : unused);
   }
   return Q;
 }
 
-void Machine::rates(const Vector& commands, const State& x, State& rate) const {
+void Machine::rates(const Vector& commands, Creeping who, const State& x, State& rate) const {
   const Eigen::Index nz = positions();
-  const Vector full = S_ * x.head(nz) + offset_;
-  const Vector full_rate = S_ * x.segment(nz, nz);
-  Matrix M = Matrix::Zero(full.size(), full.size());
+  const Vector full = positions_of(x);
+  Vector full_rate = rates_of(x);
+  creep(who, x, full, full_rate);
   Matrix links = Matrix::Zero(n_, n_);
   Vector bias = Vector::Zero(n_);
   rig_.equations(rig_, full.head(n_), full_rate.head(n_), links, bias);
-  M.topLeftCorner(n_, n_) = links;
+  Vector motors(static_cast<Eigen::Index>(rig_.motors.size()));
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
-    M(n_ + static_cast<Eigen::Index>(i), n_ + static_cast<Eigen::Index>(i)) = rig_.motors[i].inertia;
+    motors[static_cast<Eigen::Index>(i)] = rig_.motors[i].inertia;
   }
-  Vector loads = Vector::Zero(static_cast<Eigen::Index>(rig_.motors.size()));
-  const Matrix Mz = S_.transpose() * M * S_;
-  const auto lu = Mz.partialPivLu();
+  Eigen::LLT<Matrix> of_links;
+  Eigen::PartialPivLU<Matrix> of_all;
+  if (free_) {
+    of_links.compute(links);
+  } else {
+    Matrix M = Matrix::Zero(full.size(), full.size());
+    M.topLeftCorner(n_, n_) = links;
+    M.diagonal().tail(motors.size()) = motors;
+    of_all.compute(S_.transpose() * M * S_);
+  }
   rate.head(nz) = x.segment(nz, nz);
+  for (const Light& one : light_) {
+    rate[one.column] = full_rate[one.row];
+  }
+  Vector loads = Vector::Zero(motors.size());
   for (int pass = 0; pass < (load_matters_ ? kLoadIterations : 1); ++pass) {
     Vector passed;
     Vector Q = forces(commands, x, full, full_rate, loads, passed, rate);
-    const Vector motor_torques = Q.tail(loads.size()) + passed;
+    const Vector motor_torques = Q.tail(motors.size()) + passed;
     Q.head(n_) -= bias;
-    rate.segment(nz, nz) = lu.solve(S_.transpose() * Q);
+    if (free_) {
+      rate.segment(nz, n_) = of_links.solve(Q.head(n_));
+      rate.segment(nz + n_, motors.size()) = Q.tail(motors.size()).cwiseQuotient(motors);
+    } else {
+      rate.segment(nz, nz) = of_all.solve(S_.transpose() * Q);
+    }
     // What a gear passes on: the motor's torque less what turns the motor itself.
-    const Vector motor_rates = (S_ * rate.segment(nz, nz)).tail(loads.size());
-    for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
-      const auto m = static_cast<Eigen::Index>(i);
-      loads[m] = motor_torques[m] - rig_.motors[i].inertia * motor_rates[m];
+    const Vector motor_rates = (S_ * rate.segment(nz, nz)).tail(motors.size());
+    loads = motor_torques - motors.cwiseProduct(motor_rates);
+  }
+  for (std::size_t l = 0; l < light_.size(); ++l) {
+    if ((who >> l & 1U) != 0 && is_behind(light_[l], full)) {
+      rate[nz + light_[l].column] = 0.0;  // settle() says what its speed is
     }
   }
 }
 
-Motion Machine::run(State x, Eigen::Index first, Eigen::Index count, double period,
-                    const Commander& command) const {
-  Motion motion;
-  const auto motors = static_cast<Eigen::Index>(rig_.motors.size());
-  motion.positions.resize(offset_.size(), count);
-  motion.rates.resize(offset_.size(), count);
-  motion.commands.resize(motors, count);
-  Vector now = Vector::Zero(motors);
-  State k1(states_), k2(states_), k3(states_), k4(states_);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    motion.positions.col(k) = positions_of(x);
-    motion.rates.col(k) = rates_of(x);
-    command(first + k, readings_of(rig_, motion.positions.col(k)), now);
-    motion.commands.col(k) = now;
-    // Where a delayed command changes within the sample.
-    std::vector<double> ends{period};
-    for (const double delay : delay_) {
-      const double change = std::fmod(delay, period);
-      if (change > 1e-12) {
-        ends.push_back(change);
-      }
-    }
-    std::sort(ends.begin(), ends.end());
-    double from = 0.0;
-    for (const double to : ends) {
-      if (to - from < 1e-12) {
-        continue;
-      }
-      Vector held = now;
-      for (Eigen::Index m = 0; m < motors; ++m) {
-        const double back = (0.5 * (from + to) - delay_[static_cast<std::size_t>(m)]) / period;
-        const Eigen::Index then = k + static_cast<Eigen::Index>(std::floor(back));
-        held[m] = motion.commands(m, std::max<Eigen::Index>(then, 0));
-      }
-      const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / kStep - 1e-9)));
-      const double h = (to - from) / steps;
-      for (int s = 0; s < steps; ++s) {
-        rates(held, x, k1);
-        rates(held, x + 0.5 * h * k1, k2);
-        rates(held, x + 0.5 * h * k2, k3);
-        rates(held, x + h * k3, k4);
-        x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-      }
-      from = to;
-    }
-  }
-  return motion;
+Vector Machine::positions_of(const State& x) const {
+  return free_ ? Vector(x.head(positions())) : Vector(S_ * x.head(positions()) + offset_);
 }
 
-Vector Machine::positions_of(const State& x) const { return S_ * x.head(positions()) + offset_; }
-
-Vector Machine::rates_of(const State& x) const { return S_ * x.segment(positions(), positions()); }
+Vector Machine::rates_of(const State& x) const {
+  const Vector own = x.segment(positions(), positions());
+  return free_ ? own : Vector(S_ * own);
+}
 
 bool gives(const Rig& rig, const Motor& motor) {
   return std::any_of(rig.effects.begin(), rig.effects.end(), [&](const Hidden& e) {
@@ -288,24 +294,6 @@ Eigen::VectorXd readings_of(const Rig& rig, const Vector& full) {
     values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset;
   }
   return values;
-}
-
-double depth_of(const Rig& rig, const Ground& ground, const Vector& full) {
-  return ground.height - ground.constant - ground.row.dot(full.head(rig.coordinates));
-}
-
-double ground_force_of(const Rig& rig, const Ground& ground, const Vector& full, const Vector& full_rate) {
-  const double deep = depth_of(rig, ground, full);
-  if (deep <= 0.0) {
-    return 0.0;
-  }
-  const double in = -ground.row.dot(full_rate.head(rig.coordinates));
-  return std::pow(deep, ground.exponent) * std::max(0.0, ground.stiffness + ground.damping * in);
-}
-
-bool is_closed(const Rig& rig, const Ground& ground, const Vector& full, const Vector& full_rate) {
-  return rig.switch_force > 0.0 ? ground_force_of(rig, ground, full, full_rate) > rig.switch_force
-                                : depth_of(rig, ground, full) > 0.0;
 }
 
 }  // namespace plumbline::battery::worlds

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "simulator/model/known_effects.h"
+#include "simulator/run/run_scenario.h"
+#include "tests/battery/worlds/hops.h"
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/recorder.h"
 #include "tests/battery/worlds/visibility.h"
@@ -17,7 +19,6 @@ namespace {
 
 using validation::Experiment;
 using validation::Role;
-using validation::Trial;
 
 std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT) + "/" + file; }
 
@@ -46,12 +47,83 @@ void vary(Experiment& experiment, Draw& draw) {
   }
 }
 
+constexpr int kHops = 2;  // of each run, as for twins of our own
+
+/// The trials of `with`, and how far they show what `without` has not.
+class Player {
+ public:
+  Player(const Case& one, const model::Model& bare, Rig without, Rig with, const PlayOptions& options)
+      : one_(one),
+        bare_(bare),
+        without_(std::move(without)),
+        with_(std::move(with)),
+        options_(options),
+        noise_(options.seed) {}
+
+  void experiments(Draw& draw, Played& played) {
+    for (const std::string& file : robot_of(one_).experiments) {
+      Experiment experiment = validation::read_experiment(in_root(file), bare_);
+      if (one_.kind == Kind::none) {
+        vary(experiment, draw);
+      }
+      if (!is_left_out(experiment.role)) {
+        add(record(with_, experiment, bare_, options_.mujoco ? one_.robot : ""), experiment, file, played);
+      }
+    }
+  }
+
+  /// A run to fit and one to judge by, each from a start of its own.
+  void hops(Draw& draw, Played& played) {
+    const run::LoadedScenario loaded = run::read_scenario(in_root(robot_of(one_).scenario));
+    const std::vector<run::Start> starts = run::draw_starts(loaded.scenario, 2, draw.seed());
+    for (const Role role : {Role::train, Role::held_out}) {
+      if (!is_left_out(role)) {
+        const Recording recording = hop(with_, loaded, starts[role == Role::train ? 0 : 1], kHops, noise_);
+        add(recording, experiment_of(recording, loaded.scenario.title, role),
+            "hops, " + validation::to_string(role), played);
+        played.trials.back().terrain = loaded.scenario.terrain;
+      }
+    }
+  }
+
+ private:
+  bool is_left_out(Role role) const { return options_.held_out_only && role != Role::held_out; }
+
+  void add(const Recording& recording, const Experiment& experiment, const std::string& name,
+           Played& played) {
+    played.trials.push_back(trial_of(recording, experiment, bare_, noise_));
+    played.trials.back().name = played.trials.back().file = name;
+    if (experiment.role == Role::held_out && !one_.rows.empty()) {
+      played.visible = std::max(played.visible, visibility(recording, without_, stated(bare_)));
+    }
+  }
+
+  const Case& one_;
+  const model::Model& bare_;
+  Rig without_, with_;
+  PlayOptions options_;
+  std::mt19937_64 noise_;
+};
+
 }  // namespace
 
-bool can_play(const Case& one) {
-  return has_rig(one.robot) &&
-         std::all_of(one.rows.begin(), one.rows.end(), [](const Row& row) { return is_known(row.effect); });
+std::string why_not(const Case& one, bool mujoco) {
+  if (!has_rig(one.robot)) {
+    return "no foreign world has the robot " + one.robot;
+  }
+  if (mujoco && !robot_of(one).scenario.empty()) {
+    return "MuJoCo has no robot that hops under a controller";
+  }
+  for (const Row& row : one.rows) {
+    if (!is_known(row.effect)) {
+      return row.effect == "boom" ? "the foreign worlds are flat: no boom bends their ways"
+                                  : "no foreign world has " + row.effect;
+    }
+  }
+  return "";
 }
+
+bool can_play(const Case& one, bool mujoco) { return why_not(one, mujoco).empty(); }
 
 Played play(const Case& one, const model::Model& bare, const std::vector<std::string>& hidden, Draw& draw,
             const PlayOptions& options) {
@@ -72,23 +144,8 @@ Played play(const Case& one, const model::Model& bare, const std::vector<std::st
     hide(effect, with);
     played.text += (played.text.empty() ? "" : " ") + text;
   }
-  std::mt19937_64 noise(options.seed);
-  for (const std::string& file : robot_of(one).experiments) {
-    Experiment experiment = validation::read_experiment(in_root(file), bare);
-    if (one.kind == Kind::none) {
-      vary(experiment, draw);
-    }
-    const bool held_out = experiment.role == Role::held_out;
-    if (options.held_out_only && !held_out) {
-      continue;
-    }
-    const Recording recording = record(with, experiment, bare, options.mujoco ? one.robot : "");
-    played.trials.push_back(trial_of(recording, experiment, bare, noise));
-    played.trials.back().name = played.trials.back().file = file;
-    if (held_out && !hidden.empty()) {
-      played.visible = std::max(played.visible, visibility(recording, without, stated(bare)));
-    }
-  }
+  Player player(one, bare, without, with, options);
+  robot_of(one).scenario.empty() ? player.experiments(draw, played) : player.hops(draw, played);
   return played;
 }
 

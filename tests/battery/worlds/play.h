@@ -27,8 +27,9 @@ struct Played {
   double visible = 1.0;
 };
 
-/// Is there a world for the case's robot, and does it know what is hidden?
-bool can_play(const Case& one);
+/// Why no foreign world (with `mujoco`: not MuJoCo) plays the case; empty: one does.
+std::string why_not(const Case& one, bool mujoco = false);
+bool can_play(const Case& one, bool mujoco = false);
 
 /// `hidden`: the drawn effects as text, "coulomb@mLA:level=...". Throws what read_experiment throws.
 Played play(const Case& one, const model::Model& bare, const std::vector<std::string>& hidden, Draw& draw,

@@ -27,13 +27,6 @@ Vector start_of(const Rig& rig, const Experiment& experiment) {
   return p;
 }
 
-double counted(const Sensor& sensor, double value, std::mt19937_64& noise) {
-  if (sensor.noise > 0.0) {
-    value += std::normal_distribution<double>(0.0, sensor.noise)(noise);
-  }
-  return sensor.resolution > 0.0 ? sensor.resolution * std::round(value / sensor.resolution) : value;
-}
-
 int index_of(const Rig& rig, const std::string& sensor) {
   for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
     if (rig.sensors[s].name == sensor) return static_cast<int>(s);
@@ -70,6 +63,13 @@ class Cascade {
 };
 
 }  // namespace
+
+double counted(const Sensor& sensor, double value, std::mt19937_64& noise) {
+  if (sensor.noise > 0.0) {
+    value += std::normal_distribution<double>(0.0, sensor.noise)(noise);
+  }
+  return sensor.resolution > 0.0 ? sensor.resolution * std::round(value / sensor.resolution) : value;
+}
 
 Recording record(const Rig& rig, const Experiment& experiment, const model::Model& model,
                  const std::string& mujoco) {

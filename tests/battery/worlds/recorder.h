@@ -20,6 +20,9 @@ struct Recording {
 Recording record(const Rig& rig, const validation::Experiment& experiment, const model::Model& model,
                  const std::string& mujoco = "");
 
+/// What a sensor shows: with noise, then in whole counts.
+double counted(const Sensor& sensor, double value, std::mt19937_64& noise);
+
 /// In whole counts, with noise; locked motors where their own encoders show them.
 validation::Trial trial_of(const Recording& recording, const validation::Experiment& experiment,
                            const model::Model& model, std::mt19937_64& noise);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/battery/worlds/equations.h"
+#include "tests/battery/worlds/mabel.h"
 
 namespace plumbline::battery::worlds {
 namespace {
@@ -13,29 +14,6 @@ Vector row(std::initializer_list<double> factors) {
   Vector v(static_cast<Eigen::Index>(factors.size()));
   std::copy(factors.begin(), factors.end(), v.data());
   return v;
-}
-
-/// The numbers of a body in the plane of motion, x to the right and z up.
-Link link_of(const model::Model& model, const std::string& name) {
-  const model::Body& body = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(name))];
-  return {name, body.mass, -body.com.z(), body.com.x(), body.inertia(1, 1)};
-}
-
-Motor motor_of(const model::Model& model, const std::string& name, int drives) {
-  const model::Motor& motor = *model.find_motor(name);
-  Motor result{name, drives, 1.0, motor.rotor_inertia.value, motor.torque_constant.value};
-  if (motor.command_unit == "N m" || motor.command_unit == "N") {
-    result.torque_per_unit = 1.0;
-  }
-  for (const model::Ratio& ratio : model.ratios) {
-    if (ratio.motor == name) {
-      result.ratio = ratio.ratios.front().value;
-    }
-  }
-  for (const model::Inertia& inertia : model.inertias) {
-    result.inertia += inertia.at == name ? inertia.value.value : 0.0;
-  }
-  return result;
 }
 
 void add_sensors(const model::Model& model, Rig& rig) {
@@ -107,6 +85,7 @@ Rig hopper(const model::Model& model) {
   rig.places = {
       {"height", row({1.0, 0.0, 0.0})}, {"carriage", row({0.0, 1.0, 0.0})}, {"spring", row({0.0, 0.0, 1.0})}};
   Ground ground;
+  ground.name = model.feet.front().name;
   ground.row = row({1.0, -1.0, 1.0});
   ground.constant = model.feet.front().point.z();
   rig.grounds = {ground};
@@ -160,7 +139,17 @@ bool change_ground(const Hidden& e, Ground& ground) {
   if (e.effect == "ground_normal") {
     ground.stiffness = e["stiffness"];
     ground.damping = e["damping"];
+    ground.root_damping = e["root_damping"];
+    ground.rounding = e["rounding"];
     ground.exponent = e["exponent"];
+    return true;
+  }
+  if (e.effect == "ground_friction") {
+    ground.bristle_stiffness = e["bristle_stiffness"];
+    ground.bristle_damping = e["bristle_damping"];
+    ground.friction = e["friction"];
+    ground.viscous = e["viscous"];
+    ground.relaxation = e["relaxation"];
     return true;
   }
   if (e.effect == "ground_stiffness_error") {
@@ -169,6 +158,13 @@ bool change_ground(const Hidden& e, Ground& ground) {
   }
   if (e.effect == "ground_damping_error") {
     ground.damping *= e["scale"];
+    ground.root_damping *= e["scale"];
+    return true;
+  }
+  if (e.effect == "ground_friction_error") {  // the bristles slide at the same deflection
+    ground.bristle_stiffness *= e["scale"];
+    ground.friction *= e["scale"];
+    ground.viscous *= e["scale"];
     return true;
   }
   if (e.effect == "ground_height_error") {
@@ -204,10 +200,35 @@ bool change_numbers(const Hidden& e, Rig& rig) {
   for (Sensor& sensor : rig.sensors) {
     if (sensor.name == e.at && change_sensor(e, sensor)) return true;
   }
-  return !rig.grounds.empty() && change_ground(e, rig.grounds.front());
+  for (Ground& ground : rig.grounds) {
+    if (ground.name == e.at && change_ground(e, ground)) return true;
+  }
+  return false;
 }
 
 }  // namespace
+
+Link link_of(const model::Model& model, const std::string& name) {
+  const model::Body& body = model.skeleton.bodies[static_cast<std::size_t>(model.body_index(name))];
+  return {name, body.mass, -body.com.z(), body.com.x(), body.inertia(1, 1)};
+}
+
+Motor motor_of(const model::Model& model, const std::string& name, int drives) {
+  const model::Motor& motor = *model.find_motor(name);
+  Motor result{name, drives, 1.0, motor.rotor_inertia.value, motor.torque_constant.value};
+  if (motor.command_unit == "N m" || motor.command_unit == "N") {
+    result.torque_per_unit = 1.0;
+  }
+  for (const model::Ratio& ratio : model.ratios) {
+    if (ratio.motor == name) {
+      result.ratio = ratio.ratios.front().value;
+    }
+  }
+  for (const model::Inertia& inertia : model.inertias) {
+    result.inertia += inertia.at == name ? inertia.value.value : 0.0;
+  }
+  return result;
+}
 
 Link& Rig::body(const std::string& name) {
   for (Link& link : bodies) {
@@ -231,7 +252,8 @@ const Place* Rig::place(const std::string& name) const {
 }
 
 bool has_rig(const std::string& robot) {
-  return robot == "pendulum" || robot == "leg_bench" || robot == "hopper" || robot == "cart";
+  return robot == "pendulum" || robot == "leg_bench" || robot == "hopper" || robot == "cart" ||
+         robot == "mabel";
 }
 
 Rig rig_of(const std::string& robot, const model::Model& model) {
@@ -241,6 +263,7 @@ Rig rig_of(const std::string& robot, const model::Model& model) {
   Rig rig = robot == "pendulum"    ? pendulum(model)
             : robot == "leg_bench" ? leg_bench(model)
             : robot == "cart"      ? cart(model)
+            : robot == "mabel"     ? mabel(model)
                                    : hopper(model);
   rig.gravity = model.skeleton.gravity.norm();
   add_sensors(model, rig);

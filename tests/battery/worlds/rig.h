@@ -11,7 +11,7 @@
 
 namespace plumbline::battery::worlds {
 
-constexpr int kMost = 6;  ///< coordinates of links and motors together
+constexpr int kMost = 13;  ///< coordinates of links and motors together
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMost, 1>;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost, kMost>;
 
@@ -31,6 +31,12 @@ struct Motor {
   double ratio = 1.0;            ///< motor's position per that coordinate
   double inertia = 0.0;          ///< of all that turns with it, at the motor
   double torque_per_unit = 1.0;  ///< of the command, over what the model states times its own
+  int also = -1;                 ///< a second coordinate that turns it; -1: none
+  double also_ratio = 0.0;       ///< motor's position per that one
+  /// The motor's position (or rate) at those of the links' coordinates, nothing stretched.
+  double at(const Vector& links) const {
+    return ratio * links[drives] + (also >= 0 ? also_ratio * links[also] : 0.0);
+  }
 };
 
 /// A row of factors over the links' coordinates.
@@ -47,24 +53,50 @@ struct Sensor {
   double scale = 1.0, offset = 0.0;
 };
 
-/// Ground under a point foot (Hunt and Crossley 1975).
+struct Rig;
+struct Ground;
+
+/// A foot that is not a sum of coordinates: where it is and what moves it.
+struct FootMotion {
+  double height = 0.0, height_rate = 0.0;
+  double x_rate = 0.0;
+  Vector along, up;  ///< dx/dp and d(height)/dp of the links' coordinates
+};
+using FootOf = FootMotion (*)(const Rig& rig, const Ground& ground, const Vector& full,
+                              const Vector& full_rate);
+
+/// Ground under a point foot; laws in ground.cpp.
 struct Ground {
-  Vector row;             ///< foot's height over the links' coordinates
-  double constant = 0.0;  ///< and at zero
-  double stiffness = 0.0, damping = 0.0, exponent = 1.5, height = 0.0;
+  std::string name;        ///< of the foot
+  Vector row;              ///< foot's height over the links' coordinates
+  double constant = 0.0;   ///< and at zero; with `foot`: height of the foot in its link, m
+  FootOf foot = nullptr;   ///< in place of the row
+  int leg = 0;             ///< with `foot`: whose
+  double stiffness = 0.0;  ///< of the normal force, N/m^exponent
+  double damping = 0.0, root_damping = 0.0, rounding = 0.0, exponent = 1.5, height = 0.0;
+  double bristle_stiffness = 0.0, bristle_damping = 0.0;  ///< 1/m, s/m
+  double friction = 0.0, viscous = 0.0;                   ///< coefficient of sliding (0: none), s/m
+  double relaxation = 0.01;                               ///< of the bristles in the air, s
 };
 
-struct Rig;
 /// The links' equations, by hand from Lagrange's: M(p) p'' + bias(p, p') = forces.
 using Equations = void (*)(const Rig& rig, const Vector& p, const Vector& rate, Matrix& mass, Vector& bias);
 
+constexpr double kStep = 2e-5;  ///< s
+
 struct Rig {
   int coordinates = 0;  ///< of the links
+  double step = kStep;  ///< of the integration, at most, s
   Equations equations = nullptr;
   std::vector<Link> bodies;
   double gravity = 9.80665, tilt = 0.0;  ///< tilt: of gravity about the world's y, rad
-  double length = 0.0;                   ///< thigh (bench)
+  double length = 0.0;                   ///< thigh (bench, MABEL)
+  double pivot = 0.0;                    ///< height of the springs' bars over the hip (MABEL), m
   double incline = 0.0;                  ///< of the way (cart), rad
+  std::vector<double> pulleys;  ///< inertias of the last coordinates, which turn by themselves (MABEL)
+  /// Coordinates so light that a stop stops them within microseconds. Behind it they then have no inertia,
+  /// and creep at the speed at which the forces on them are in balance.
+  std::vector<int> light;
   std::vector<Motor> motors;
   std::vector<Place> places;
   std::vector<Sensor> sensors;
@@ -83,6 +115,11 @@ struct Rig {
 Rig rig_of(const std::string& robot, const model::Model& model);
 /// Is there such a rig?
 bool has_rig(const std::string& robot);
+
+/// The numbers of a body in the plane of motion, x to the right and z up.
+Link link_of(const model::Model& model, const std::string& name);
+/// A motor with its inertias; its ratio is the first of the file.
+Motor motor_of(const model::Model& model, const std::string& name, int drives);
 
 /// Puts an effect into the rig: into its numbers where it is one of them, else into its list. Throws
 /// std::invalid_argument for a place that the rig has not.

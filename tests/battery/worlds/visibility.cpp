@@ -41,8 +41,11 @@ class Seen {
 
   Eigen::VectorXd run(const Rig& rig, const Window& window, const Eigen::VectorXd* moved = nullptr) const {
     const Machine machine(rig, truth_.locked, truth_.start);
-    State x =
-        machine.state_of(truth_.motion.positions.col(window.first), truth_.motion.rates.col(window.first));
+    // What only bristles under a foot know is as it was.
+    const Vector bristles =
+        truth_.motion.bristles.cols() > 0 ? Vector(truth_.motion.bristles.col(window.first)) : Vector();
+    State x = machine.state_of(truth_.motion.positions.col(window.first),
+                               truth_.motion.rates.col(window.first), bristles);
     if (moved != nullptr) {
       x.head(2 * machine.positions()) += *moved;
     }
