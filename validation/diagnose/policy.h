@@ -18,8 +18,7 @@ struct Policy {
   double finished = 1.2;   ///< what was named is an answer
   double far = 3.0;        ///< more is missing than one effect
   double hopeless = 20.0;  ///< so much is missing that no pair is looked for
-  double nearer =
-      1.5;  ///< above it: what a linear law must promise on shorter windows to be sought there first
+  double nearer = 1.5;     ///< above it: to be sought on shorter windows, a law must promise this there
 
   // When a law is named.
   double material = 0.05;     ///< least relative fall of the error that counts (held-out where there is one)
