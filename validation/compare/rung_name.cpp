@@ -6,11 +6,17 @@
 #include <vector>
 
 namespace plumbline::validation {
+namespace {
+
+/// "coulomb@drive"
+std::string name_of(const model::EffectUse& use) { return use.law->declaration().name + "@" + use.at; }
+
+}  // namespace
 
 EffectNames effect_names(const model::Model& model) {
   EffectNames names{""};  // never empty, so that a bare model counts as known
   for (const model::EffectUse& use : model.effects) {
-    names.insert(use.law->declaration().name + "@" + use.at);
+    names.insert(name_of(use));
   }
   return names;
 }
@@ -20,9 +26,8 @@ std::string rung_name(const model::Model& model, const EffectNames& known) {
   constexpr std::size_t kOfMany = 2;
   std::vector<std::string> added;
   for (const model::EffectUse& use : model.effects) {
-    const std::string label = use.law->declaration().name + "@" + use.at;
-    if (!known.empty() && known.count(label) == 0) {
-      added.push_back(label);
+    if (!known.empty() && known.count(name_of(use)) == 0) {
+      added.push_back(name_of(use));
     }
   }
   const std::size_t shown = added.size() > kMost ? kOfMany : added.size();
