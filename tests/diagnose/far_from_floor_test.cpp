@@ -1,5 +1,6 @@
 // Where hundreds of floors remain whatever one does: several effects at once, laws that trade with a model
 // parameter, records whose zeros are off.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -78,40 +79,73 @@ TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
       policy, silent));
 }
 
-// Half a second of a double pendulum that swings over is far from linear in where it begins. The step of a
-// window's initial state that leads it astray is damped; else such windows would refuse every step of the
-// parameters, however short.
-TEST(Search, WindowsThatAStraightLineLeadsAstrayHoldNothingBack) {
-  const model::Model bare =
-      model::read_model("tests/robots/double_pendulum/model.yaml", effects::Catalogue::all());
-  const auto with_friction = [&](double share) {
+/// Windows of a double pendulum that swings over, half a second and more of it far from linear in where they
+/// begin, and a share of the friction that is in its motors.
+struct SwingingOver {
+  static constexpr double kShoulder = 0.24;  // N m
+  static constexpr double kElbow = 0.17;
+  model::Model bare = model::read_model("tests/robots/double_pendulum/model.yaml", effects::Catalogue::all());
+  model::Model start = with_friction(0.02);
+  Data data = recorded();
+  std::vector<FreeParameter> parameters = levels();
+
+  model::Model with_friction(double share) const {
     model::Model model = bare;
-    for (const char* use : {"coulomb@shoulder_motor:level=0.24", "coulomb@elbow_motor:level=0.17"}) {
-      model.effects.push_back(parse_effect(use, bare, effects::Catalogue::all()));
+    for (const auto& [motor, level] :
+         {std::pair("shoulder_motor", kShoulder), std::pair("elbow_motor", kElbow)}) {
+      model.effects.push_back(
+          parse_effect(fmt::format("coulomb@{}:level={}", motor, level), bare, effects::Catalogue::all()));
       model.effects.back().values.front().value *= share;
     }
     return model;
-  };
-  const Trial trial =
-      twin(with_friction(1.0), read_experiment("tests/robots/double_pendulum/swing.yaml", bare), {});
-  PredictOptions options;
-  options.window = 1.0;
-  const Data data({trial}, options);
-  const model::Model start = with_friction(0.02);
-  std::vector<FreeParameter> parameters;
-  for (int effect = 0; effect < 2; ++effect) {
-    for (const FreeParameter& one :
-         free_parameters_of(start.effects[static_cast<std::size_t>(effect)], effect, {}, true)) {
-      parameters.push_back(one);
-    }
   }
-  ASSERT_EQ(parameters.size(), 2U);
-  PredictorPool pool(start, data);
+  Data recorded() const {
+    PredictOptions options;
+    options.window = 1.0;
+    return {{twin(with_friction(1.0), read_experiment("tests/robots/double_pendulum/swing.yaml", bare), {})},
+            options};
+  }
+  std::vector<FreeParameter> levels() const {
+    std::vector<FreeParameter> all;
+    for (int effect = 0; effect < 2; ++effect) {
+      for (const FreeParameter& one :
+           free_parameters_of(start.effects[static_cast<std::size_t>(effect)], effect, {}, true)) {
+        all.push_back(one);
+      }
+    }
+    return all;
+  }
+};
+
+// The step of a window's initial state that a straight line leads astray is damped; else such windows would
+// refuse every step of the parameters, however short.
+TEST(Search, WindowsThatAStraightLineLeadsAstrayHoldNothingBack) {
+  const SwingingOver pendulum;
+  ASSERT_EQ(pendulum.parameters.size(), 2U);
+  PredictorPool pool(pendulum.start, pendulum.data);
   ASSERT_GT(estimate_states(pool).scores.train, 30.0);
-  const Estimate found = gauss_newton(pool, parameters, values_of(start, parameters), {}, {12, 1e-3, false});
+  const Estimate found = gauss_newton(pool, pendulum.parameters,
+                                      values_of(pendulum.start, pendulum.parameters), {}, {12, 1e-3, false});
   EXPECT_LT(found.scores.train, 1.1);
-  EXPECT_NEAR(found.theta[0], 0.24, 0.002);
-  EXPECT_NEAR(found.theta[1], 0.17, 0.002);
+  EXPECT_NEAR(found.theta[0], SwingingOver::kShoulder, 0.002);
+  EXPECT_NEAR(found.theta[1], SwingingOver::kElbow, 0.002);
+}
+
+// An error that is reported is what is left from the states that stand beside it, not what a straight line
+// promises of the next step.
+TEST(Search, ReportsTheErrorOfItsStates) {
+  const SwingingOver pendulum;
+  PredictorPool pool(pendulum.start, pendulum.data);
+  // Cut short far from where it leads.
+  const Estimate found = gauss_newton(pool, pendulum.parameters,
+                                      values_of(pendulum.start, pendulum.parameters), {}, {2, 1e-3, false});
+  for (const int w : pendulum.data.all_windows()) {
+    const auto i = static_cast<std::size_t>(w);
+    pool.with(w, pendulum.parameters, found.theta, [&](Predictor& predictor) {
+      const double left = predictor.residual(pendulum.data.windows[i], found.x0[i]).squaredNorm();
+      EXPECT_NEAR(found.square[i].sum(), left, 0.01 * left) << "window " << w;
+    });
+  }
 }
 
 // One friction alone is named by itself: a group of several that does no better is none.
