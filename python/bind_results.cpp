@@ -5,8 +5,8 @@
 #include "python/work.h"
 #include "simulator/model/kinds.h"
 #include "simulator/trace/error.h"
-#include "validation/api/comparing.h"
 #include "validation/replay/replay.h"
+#include "validation/report/result_json.h"
 
 namespace plumbline::python {
 namespace {
@@ -68,14 +68,14 @@ py::list curves_of(const api::Loaded& loaded, const std::vector<Eigen::MatrixXd>
 py::tuple compare(const ModelHandle& model, const std::vector<TrialHandle>& trials, double window,
                   const py::object& progress) {
   std::optional<api::Loaded> loaded;
-  api::Compared compared;
+  validation::Comparison comparison;
   const bool interrupted = run(progress, [&](const validation::StopFlag& stop, const validation::Progress&) {
     loaded = load({model, trials, window}, stop);
-    compared = api::compare(*loaded);
+    comparison = validation::compare_with_curves(loaded->model, *loaded->data);
   });
   return interrupted ? py::make_tuple(true, py::none(), py::none())
-                     : py::make_tuple(false, to_python(api::to_json(compared)),
-                                      curves_of(*loaded, compared.predicted));
+                     : py::make_tuple(false, to_python(validation::to_json(comparison)),
+                                      curves_of(*loaded, comparison.predicted));
 }
 
 py::tuple fit(const ModelHandle& model, const std::vector<TrialHandle>& trials, double window,

@@ -5,7 +5,6 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/compare/rung_name.h"
-#include "validation/predict/zero_errors.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {
@@ -29,7 +28,7 @@ LadderRung climb(const Loaded& loaded, const validation::EffectNames& known) {
   rung.name = validation::rung_name(loaded.model, known);
   rung.has_train = loaded.data->has(Role::train);
   rung.has_held_out = loaded.data->has(Role::held_out);
-  rung.windows = validation::compare(validation::with_zero_errors(loaded.model, *loaded.data), *loaded.data);
+  rung.windows = validation::compare(loaded.model, *loaded.data);
   rung.trials = validation::whole_trials(loaded.model, *loaded.data);
   return rung;
 }

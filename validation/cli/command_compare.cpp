@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/api/comparing.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
+#include "validation/report/result_json.h"
 
 namespace plumbline::cli {
 namespace {
@@ -118,8 +118,7 @@ void print_lost(const std::vector<validation::LostWindow>& lost) {
   print_table({"trial", "window", "because"}, rows);
 }
 
-void print(const api::Compared& compared) {
-  const Comparison& comparison = compared.comparison;
+void print(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows;
   for (const ChannelError& c : comparison.channels) {
     rows.push_back({c.trial, to_string(c.role), c.name, fmt::format("{:.4g} {}", c.rms, c.unit),
@@ -136,7 +135,7 @@ void print(const api::Compared& compared) {
   }
   print_table({"trial", "window", "error/floor", "worst channel"}, rows);
   print_phases(comparison);
-  print_horizons(compared.horizons);
+  print_horizons(comparison.horizons);
   print_switches(comparison.switches);
   print_lost(comparison.lost);
   fmt::print(
@@ -157,9 +156,9 @@ void add_compare(CLI::App& app, Outcome& /*outcome*/) {
       "Example:\n  plumbline compare demo/siso_mLA demo/mimo --model robots/mabel/leg_bench.yaml");
   command->callback([inputs] {
     const Loaded loaded = load(*inputs);
-    const api::Compared compared = api::compare(loaded);
-    write_json(api::to_json(compared), inputs->json);
-    print(compared);
+    const Comparison comparison = validation::compare_with_curves(loaded.model, *loaded.data);
+    write_json(to_json(comparison), inputs->json);
+    print(comparison);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/model/kinds.h"
+#include "validation/predict/zero_errors.h"
 
 namespace plumbline::validation {
 namespace {
@@ -74,15 +75,12 @@ std::vector<WindowError> window_errors(const Data& data, const Estimate& estimat
   return errors;
 }
 
-}  // namespace
-
-Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
-  return {channel_errors(model, data, estimate), window_errors(data, estimate), estimate.scores, {}, {}, {}};
+template <typename T>
+void append(const std::vector<T>& more, std::vector<T>& all) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
-namespace {
-
-Comparison compare_trials(const model::Model& model, const Data& data) {
+Comparison compare_trials(const model::Model& model, const Data& data, bool with_curves) {
   std::vector<LostWindow> lost;
   const Data kept = without_lost(model, data, lost);
   PredictorPool pool(model, kept);
@@ -91,30 +89,47 @@ Comparison compare_trials(const model::Model& model, const Data& data) {
   comparison.phases = phase_errors(pool, {}, estimate);
   comparison.lost = std::move(lost);
   comparison.switches = switch_timing(pool, estimate);
+  if (with_curves) {
+    comparison.horizons = horizon_errors(pool, {}, estimate);
+    comparison.predicted = predicted_traces(pool, {}, estimate);
+  }
   return comparison;
 }
 
-template <typename T>
-void append(const std::vector<T>& more, std::vector<T>& all) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-}  // namespace
-
-Comparison compare(const model::Model& model, const Data& data) {
+/// Those of the trials of role test, which nothing is chosen by, behind the others.
+Comparison compare_all(const model::Model& bare, const Data& data, bool with_curves) {
+  const model::Model model = with_zero_errors(bare, data);
+  Comparison comparison = data.trials.empty() ? Comparison() : compare_trials(model, data, with_curves);
   if (data.tests.empty()) {
-    return compare_trials(model, data);
+    return comparison;
   }
-  Comparison comparison = data.trials.empty() ? Comparison() : compare_trials(model, data);
-  const Comparison tests = compare_trials(model, data.of_tests());
+  const Comparison tests = compare_trials(model, data.of_tests(), with_curves);
   append(tests.channels, comparison.channels);
   append(tests.windows, comparison.windows);
   append(tests.phases, comparison.phases);
   append(tests.lost, comparison.lost);
   append(tests.switches, comparison.switches);
+  append(tests.horizons, comparison.horizons);
+  append(tests.predicted, comparison.predicted);
   sort_worst_first(comparison.windows);
   comparison.scores.test = tests.scores.test;
   return comparison;
+}
+
+}  // namespace
+
+Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate) {
+  Comparison comparison;
+  comparison.channels = channel_errors(model, data, estimate);
+  comparison.windows = window_errors(data, estimate);
+  comparison.scores = estimate.scores;
+  return comparison;
+}
+
+Comparison compare(const model::Model& model, const Data& data) { return compare_all(model, data, false); }
+
+Comparison compare_with_curves(const model::Model& model, const Data& data) {
+  return compare_all(model, data, true);
 }
 
 }  // namespace plumbline::validation

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/compare/horizon.h"
 #include "validation/compare/phase_errors.h"
 #include "validation/compare/switch_timing.h"
 #include "validation/predict/lost_windows.h"
@@ -29,16 +30,26 @@ struct Comparison {
   std::vector<ChannelError> channels;
   std::vector<WindowError> windows;  ///< worst first
   Scores scores;
-  std::vector<PhaseError> phases;      ///< of compare(model, data) only
-  std::vector<LostWindow> lost;        ///< of compare(model, data) only: not in any error
-  std::vector<SwitchTiming> switches;  ///< of compare(model, data) only
+  // Of compare(model, data) only:
+  std::vector<PhaseError> phases;
+  std::vector<LostWindow> lost;  ///< not in any error
+  std::vector<SwitchTiming> switches;
+  // Of compare_with_curves only:
+  std::vector<HorizonError> horizons;
+  /// By trial, those of role test behind the others: samples x measured channels, SI; NaN where no window
+  /// predicts.
+  std::vector<Eigen::MatrixXd> predicted;
 };
 
-/// Predicts every window from its own estimated initial state with the model as it is (nothing fitted), those
-/// of the tests too. Windows that cannot be integrated are left out and named.
+/// Predicts every window from its own estimated initial state with the model as it is, those of the tests
+/// too. Nothing is fitted but these states and the zero errors that the trials grant (with_zero_errors).
+/// Windows that cannot be integrated are left out and named.
 Comparison compare(const model::Model& model, const Data& data);
 
-/// The same from an estimate that is at hand.
+/// The same with the predicted curves and the errors behind the windows' ends.
+Comparison compare_with_curves(const model::Model& model, const Data& data);
+
+/// The same from an estimate that is at hand, which was made with the model as it is given here.
 Comparison compare(const model::Model& model, const Data& data, const Estimate& estimate);
 
 }  // namespace plumbline::validation

@@ -151,6 +151,9 @@ nlohmann::json to_json(const Comparison& comparison) {
                               {"mean", p.mean},
                               {"ratio", p.ratio}});
   }
+  if (!comparison.predicted.empty()) {
+    json["horizons"] = to_json(comparison.horizons);
+  }
   return json;
 }
 
