@@ -101,18 +101,25 @@ void set_errors_of_rungs(Diagnosis& diagnosis) {
   }
 }
 
-/// The ladder without a finding: an effect that came last goes with its rung, and the rung before has the
-/// better of both searches.
-void take_back(const Finding& finding, const Stage& without, std::vector<Rung>& ladder) {
+/// Where the last rung is the one before it and this finding, on the same windows, the one before: what the
+/// search has left without the finding.
+const Stage* before_last(const Finding& finding, const Stage& without, const std::vector<Rung>& ladder) {
   if (ladder.size() < 2 || ladder.back().name != "+ " + finding.label()) {
+    return nullptr;
+  }
+  const Rung& before = ladder[ladder.size() - 2];
+  const bool is_same =
+      before.length == ladder.back().length && before.stage.parameters.size() == without.parameters.size();
+  return is_same ? &before.stage : nullptr;
+}
+
+/// The ladder without a finding: an effect that came last goes with its rung.
+void take_back(const Finding& finding, const Stage& without, std::vector<Rung>& ladder) {
+  if (before_last(finding, without, ladder) == nullptr) {
     ladder.push_back({"- " + finding.label(), without, ladder.back().length});
     return;
   }
   ladder.pop_back();
-  Stage& before = ladder.back().stage;
-  if (before.parameters.size() != without.parameters.size() || without.estimate.cost < before.estimate.cost) {
-    before = without;
-  }
 }
 
 }  // namespace
@@ -182,9 +189,13 @@ void drop_superfluous(const Data& all, const Policy& policy, const Progress& pro
   std::vector<Finding>& accepted = diagnosis.accepted;
   const auto without = [&](std::size_t i) {
     const Stage& stage = diagnosis.final_stage;
-    progress("is " + accepted[i].label() + " still needed", 0.9);
     const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + i);
-    return unless_lost(without_effect(stage, effect), all);
+    const Stage rest = without_effect(stage, effect);
+    if (const Stage* known = before_last(accepted[i], rest, diagnosis.ladder)) {
+      return *known;
+    }
+    progress("is " + accepted[i].label() + " still needed", 0.9);
+    return unless_lost(rest, all);
   };
   const auto drop = [&](std::size_t i, const Stage& stage) {
     take_back(accepted[i], stage, diagnosis.ladder);
