@@ -104,7 +104,10 @@ void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
       break;
     }
   }
-  revise_rivals(catalogue_, data_, policy_, progress_, diagnosis);
+  // Where hundreds of floors remain, which of two rivals is nearer is decided by what is not in the model.
+  if (is_below(policy_.hopeless, diagnosis.final_stage.estimate, data_)) {
+    revise_rivals(catalogue_, data_, policy_, progress_, diagnosis);
+  }
   conclude(data_, policy_, diagnosis);
 }
 

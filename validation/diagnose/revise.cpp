@@ -55,12 +55,9 @@ std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Riva
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(asked),
                [&](const Candidate& candidate) { return is_asked(candidate, candidates, rivals); });
   candidates = std::move(asked);
-  // Where hundreds of floors remain, a rival that takes many times the work stays one untried.
-  Policy cheap = policy;
-  cheap.dear = false;
   std::vector<InPlace> tried;
   for (const Refit& one :
-       refit(without, candidates, screen(without, candidates, data, progress), data, cheap, progress)) {
+       refit(without, candidates, screen(without, candidates, data, progress), data, policy, progress)) {
     tried.push_back({candidates[static_cast<std::size_t>(one.candidate)], one});
   }
   return tried;
