@@ -9,6 +9,7 @@
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
 #include "validation/predict/profile.h"
+#include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
 namespace {
@@ -154,7 +155,8 @@ void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnos
 }
 
 // Far above the floor many windows have several minima, and so has the sum of them: the answer's values are
-// sought from two beginnings, and the better is that which still is when its windows are settled anew.
+// sought from two beginnings, and the better is that which still is when its windows are settled anew. With
+// corners every search goes by way of the windows' beginnings already, and takes minutes.
 void rescore(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   const double length = diagnosis.ladder.back().length;
   const Rung* before = nullptr;
@@ -173,7 +175,8 @@ void rescore(const Data& all, const Policy& policy, const Progress& progress, Di
       if (found.scores.train > there.scores.train && have_same_states(there, found)) {
         take_better(gauss_newton(pool, rung.stage.parameters, theta, there.x0, search), found);
       }
-      if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all)) {
+      if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all) &&
+          !has_corners(pool, rung.stage.parameters, theta)) {
         const Eigen::VectorXd other = as_before(rung.stage, theta, before->stage);
         take_if_still_better(pool, rung.stage, other, search, found);
       }
