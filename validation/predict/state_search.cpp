@@ -110,29 +110,22 @@ Settled StateSearch::if_better(const Eigen::VectorXd& x0, const Reduced& than) {
 void StateSearch::take_last_step(Settled& at) {
   // Of a step that takes less than a hundredth off, the rounding by a straight line is not seen.
   constexpr double kStraight = 1.01;
-  if (!at.reduced.curved && at.reduced.raw_sse <= kStraight * at.reduced.sse) {
-    at.x0 += at.reduced.x_shift;
+  Reduced& one = at.reduced;
+  const Eigen::VectorXd there = at.x0 + one.x_shift;
+  if (!one.curved && one.raw_sse <= kStraight * one.sse) {
+    at.x0 = there;
     return;
   }
-  if (!take_if_better(at.x0 + at.reduced.x_shift, at)) {
-    take_if_better(at.x0, at);
-  }
-}
-
-bool StateSearch::take_if_better(const Eigen::VectorXd& x0, Settled& at) {
-  Reduced& one = at.reduced;
-  bool taken = false;
   pool_.with(window_, parameters_, theta_, [&](Predictor& predictor) {
     Eigen::VectorXd r;
-    const double there = cost(predictor, whole(), x0, r);
-    taken = there < one.raw_sse || x0 == at.x0;
-    if (taken) {
-      at.x0 = x0;
-      one.sse = there;
-      one.square = predictor.squares(whole(), r);
+    one.sse = cost(predictor, whole(), there, r);
+    if (one.sse < one.raw_sse) {
+      at.x0 = there;
+    } else {
+      one.sse = cost(predictor, whole(), at.x0, r);
     }
+    one.square = predictor.squares(whole(), r);
   });
-  return taken;
 }
 
 Settled StateSearch::grown(const Eigen::VectorXd& start, const Settling& settling) {

@@ -58,8 +58,6 @@ class StateSearch {
   const Window& whole() const { return pool_.data().windows[static_cast<std::size_t>(window_)]; }
   Settled from(const Window& part, const Eigen::VectorXd& x0, bool with_parameters);
   void settle(const Window& part, const Settling& settling, Settled& at);
-  /// Goes to x0, with the residuals there, if they are less than at.reduced.raw_sse or x0 is where it is.
-  bool take_if_better(const Eigen::VectorXd& x0, Settled& at);
   Settled if_better(const Window& part, const Eigen::VectorXd& x0, bool with_parameters, const Reduced& than);
 
   PredictorPool& pool_;
