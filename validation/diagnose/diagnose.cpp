@@ -10,6 +10,7 @@
 #include "validation/diagnose/finish.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/pair_step.h"
+#include "validation/diagnose/rescore.h"
 #include "validation/diagnose/same_force.h"
 #include "validation/predict/initial_states.h"
 #include "validation/predict/kept_results.h"
@@ -63,7 +64,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Pol
   diagnosis.windows = data.segments(tried.length).windows.size();
   diagnosis.cut_windows = not_followed(data, followed);
   if (is_some) {
-    rescore(all, policy, progress, diagnosis);
+    rescore(all, tried.data, policy, progress, diagnosis);
   }
   if (diagnosis.ladder.front().length >=
       diagnosis.ladder.back().length) {  // else they have been tried without

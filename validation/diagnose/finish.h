@@ -5,14 +5,6 @@
 
 namespace plumbline::validation {
 
-/// The ladder on all windows, where candidates were tried on some of them; of its rungs those that reach as
-/// far into the windows as the last.
-void rescore(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
-
-/// The errors of every rung as `compare` gives them of its model, and those of the findings from them, so
-/// that an answer has one number for one thing; not where a rung is of segments.
-void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnosis);
-
 /// A guess that the others make superfluous is dropped again: an early one, or a rival that took its place;
 /// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
