@@ -1,7 +1,6 @@
 #include "validation/diagnose/finish.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
