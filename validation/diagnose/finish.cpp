@@ -13,33 +13,28 @@
 namespace plumbline::validation {
 namespace {
 
-/// The stage without one of its effects, fitted. Far above the floor from where the stage has ended: there
-/// the way over the windows' beginnings takes minutes, and was gone when the other effects were named.
+/// The stage without one of its effects, fitted; where it cannot be integrated, with an infinite error. Far
+/// above the floor from where the stage has ended: there the way over the windows' beginnings takes minutes,
+/// and was gone when the other effects were named.
 Stage refitted_without(const Stage& stage, int effect, const Data& data, const Policy& policy) {
-  const Stage rest = without_effect(stage, effect);
-  if (is_below(policy.hopeless, stage.estimate, data)) {
-    return fitted_anew(rest, data);
-  }
-  Stage from = without_effect({fitted_model(stage), stage.parameters, {}}, effect);
-  PredictorPool pool(from.model, data);
-  from.estimate = gauss_newton(pool, from.parameters, values_of(from.model, from.parameters),
-                               carried_states(fitted_model(stage), from.model, data, stage.estimate.x0),
-                               {10, 1e-4, false});
-  return from;
-}
-
-/// The same; where it cannot be integrated, with an infinite error.
-Stage unless_lost(const Stage& stage, int effect, const Data& data, const Policy& policy) {
+  const bool goes_on = !is_below(policy.hopeless, stage.estimate, data);
+  const Stage from = goes_on ? Stage{fitted_model(stage), stage.parameters, stage.estimate} : stage;
+  Stage rest = without_effect(from, effect);
   try {
-    return refitted_without(stage, effect, data, policy);
+    if (!goes_on) {
+      return fitted_anew(rest, data);
+    }
+    PredictorPool pool(rest.model, data);
+    rest.estimate =
+        gauss_newton(pool, rest.parameters, values_of(rest.model, rest.parameters),
+                     carried_states(from.model, rest.model, data, stage.estimate.x0), {10, 1e-4, false});
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
-    Stage lost = without_effect(stage, effect);
-    lost.estimate.scores.train = lost.estimate.predicted.scores.held_out =
+    rest.estimate.scores.train = rest.estimate.predicted.scores.held_out =
         std::numeric_limits<double>::infinity();
-    return lost;
   }
+  return rest;
 }
 
 /// Has the search left the law at nothing, exactly?
@@ -87,7 +82,7 @@ void drop_superfluous(const Data& all, const Policy& policy, const Progress& pro
       return *known;
     }
     progress("is " + accepted[i].label() + " still needed", 0.9);
-    return unless_lost(stage, effect, all, policy);
+    return refitted_without(stage, effect, all, policy);
   };
   const auto drop = [&](std::size_t i, const Stage& stage) {
     take_back(accepted[i], stage, diagnosis.ladder);

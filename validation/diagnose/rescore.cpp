@@ -7,6 +7,7 @@
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/judged.h"
 #include "validation/predict/carried_states.h"
+#include "validation/predict/reach.h"
 #include "validation/predict/states_by_parts.h"
 
 namespace plumbline::validation {
@@ -69,9 +70,8 @@ States known_states(const Stage& stage, const Data& some, const Stage& before, c
   }
   for (std::size_t s = 0; s < some.windows.size(); ++s) {
     const Window& one = some.windows[s];
-    const auto at = std::find_if(all.windows.begin(), all.windows.end(), [&](const Window& other) {
-      return other.trial == one.trial && other.first == one.first && other.count == one.count;
-    });
+    const auto at = std::find_if(all.windows.begin(), all.windows.end(),
+                                 [&](const Window& other) { return is_same(one, other); });
     if (at != all.windows.end()) {
       x0[static_cast<std::size_t>(at - all.windows.begin())] = stage.estimate.x0[s];
     }

@@ -199,13 +199,15 @@ Level level_of(const model::Model& model, const Followed& followed) {
 
 bool is_whole(const Followed& followed) { return followed.length >= followed.data.predict.window; }
 
+bool is_same(const Window& one, const Window& other) {
+  return other.trial == one.trial && other.first == one.first && other.count == one.count;
+}
+
 std::size_t not_followed(const Data& data, const Followed& followed) {
   const std::vector<Window>& some = followed.data.windows;
   const std::vector<Window> all = data.segments(followed.length).windows;
   return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const Window& one) {
-    return std::none_of(some.begin(), some.end(), [&](const Window& other) {
-      return other.trial == one.trial && other.first == one.first && other.count == one.count;
-    });
+    return std::none_of(some.begin(), some.end(), [&](const Window& other) { return is_same(one, other); });
   }));
 }
 

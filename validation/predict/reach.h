@@ -44,6 +44,9 @@ Followed follow_further(const model::Model& model, const Data& data, const Follo
 /// Are these whole windows?
 bool is_whole(const Followed& followed);
 
+/// Do both begin and end with the same samples of one trial?
+bool is_same(const Window& one, const Window& other);
+
 /// How many windows of the length are not followed from their beginning to their end.
 std::size_t not_followed(const Data& data, const Followed& followed);
 
