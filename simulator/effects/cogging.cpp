@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <numeric>
 
 #include "simulator/effects/parameters.h"
 
@@ -10,8 +12,11 @@ namespace {
 
 enum Index : std::size_t { kSine, kCosine, kCycles };
 
-// Usual counts: poles, slots, and their products and sums for small motors.
-constexpr double kCyclesPerTurn[] = {4, 6, 7, 8, 10, 12, 14, 16, 18, 20, 21, 22, 24, 28, 30, 32, 36, 42, 48};
+// Every count of small motors: poles, slots, their sums, the two of a strain wave gear; above it least common
+// multiples of slots and poles. A neighbour's count explains a part only. Once in a turn is left to gravity.
+constexpr int kFewest = 2;
+constexpr int kMost = 48;
+constexpr int kMultiples[] = {60, 72, 84};
 
 }  // namespace
 
@@ -36,8 +41,11 @@ Values Cogging::typical(const Scales& scales) const {
 }
 
 std::vector<Values> Cogging::starts(const Scales& /*scales*/) const {
+  std::vector<int> counts(std::begin(kMultiples), std::end(kMultiples));
+  counts.resize(counts.size() + kMost - kFewest + 1);
+  std::iota(counts.begin() + std::size(kMultiples), counts.end(), kFewest);
   std::vector<Values> grid;
-  for (const double cycles : kCyclesPerTurn) {
+  for (const int cycles : counts) {
     Values p = null_values();
     p[kCycles] = cycles;
     grid.push_back(p);

@@ -5,6 +5,7 @@
 namespace plumbline::effects {
 namespace {
 
+constexpr const char* kSmoothingName = "smoothing_speed";
 constexpr const char* kRestName = "rest";         // is_rest() is asked at every sample of a linearisation
 constexpr double kStandardSmoothingSpeed = 0.01;  // where no trial gives a better one
 constexpr double kTiny = 1e-12;                   // magnitudes below are taken as "not known"
@@ -32,9 +33,11 @@ Parameter fixed(const std::string& name, const std::string& unit, const std::str
 }
 
 Parameter smoothing_speed() {
-  return fixed("smoothing_speed", "{position}/s", "speed below which the sign of the velocity is smoothed",
+  return fixed(kSmoothingName, "{position}/s", "speed below which the sign of the velocity is smoothed",
                kStandardSmoothingSpeed, kSmallestPositive, kInfinity);
 }
+
+bool is_smoothing_speed(const Parameter& parameter) { return parameter.name == kSmoothingName; }
 
 Parameter rest() { return any(kRestName, "{position}", "position from which the law measures"); }
 

@@ -26,6 +26,7 @@ Parameter fixed(const std::string& name, const std::string& unit, const std::str
                 double lower, double upper);
 /// The speed below which the sign of a velocity is smoothed, {position}/s.
 Parameter smoothing_speed();
+bool is_smoothing_speed(const Parameter& parameter);
 /// A position from which a law measures: its force depends on x - rest alone, not on either by itself. Of no
 /// effect while the law has no strength; standard value 0.
 Parameter rest();

@@ -7,10 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/recorder.h"
 #include "validation/diagnose/diagnose.h"
 #include "validation/fit/fit.h"
@@ -80,9 +82,12 @@ validation::Data recorded(const Robot& robot, const std::vector<std::string>& hi
   return validation::Data(std::move(trials), {});
 }
 
+Diagnosis diagnosed(const model::Model& model, const validation::Data& data) {
+  return validation::diagnose(model, model::known_effects(), data, {}, [](const std::string&, double) {});
+}
+
 Diagnosis diagnosed(const Robot& robot, const validation::Data& data) {
-  return validation::diagnose(model_of(robot), model::known_effects(), data, {},
-                              [](const std::string&, double) {});
+  return diagnosed(model_of(robot), data);
 }
 
 Diagnosis diagnosed(const Robot& robot, const std::vector<std::string>& hidden) {
@@ -109,6 +114,16 @@ TEST(Blind, StrongCoggingOnTheGridIsNamed) {
   EXPECT_EQ(names(found), "cogging@drive") << validation::summary(found);
 }
 
+TEST(Blind, CoggingOfAnUnusualCountIsNamed) {
+  const Diagnosis found = diagnosed(pendulum(), {"cogging@drive:sine=8e-3,cosine=6e-3,cycles=11"});
+  ASSERT_EQ(names(found), "cogging@drive") << validation::summary(found);
+  const auto& values = found.accepted.front().parameters;
+  const auto cycles =
+      std::find_if(values.begin(), values.end(), [](const auto& one) { return one.name == "cycles"; });
+  ASSERT_NE(cycles, values.end());
+  EXPECT_EQ(cycles->value, 11.0);
+}
+
 // The foreign world's load is the torque that the gear passes on.
 TEST(Blind, FrictionThatFollowsWhatTheGearPassesOnIsGearFriction) {
   const Diagnosis found =
@@ -122,6 +137,18 @@ TEST(Blind, NothingHiddenNamesNothing) {
     EXPECT_EQ(found.verdict, Verdict::nothing_missing) << validation::summary(found);
     EXPECT_EQ(names(found), "");
   }
+}
+
+// What is stated with its tolerance moves within it, and is no effect.
+TEST(Blind, ConstantsOfWhichTheToleranceIsStatedAreNotNamed) {
+  const validation::Data data = recorded(pendulum(), {}, [](Rig& rig) {
+    rig.motor("drive")->ratio *= 1.0 + 5e-4;
+    rig.body("arm").along += 5e-4;
+  });
+  const Diagnosis found = diagnosed(with_tolerances(model_of(pendulum())), data);
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << validation::summary(found);
+  EXPECT_EQ(names(found), "") << validation::summary(found);
+  EXPECT_GT(found.ladder.front().held_out(), 1.2);  // else nothing was off
 }
 
 TEST(Blind, StopInsideTheHoppersRangeIsLookedFor) {

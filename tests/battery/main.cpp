@@ -203,10 +203,13 @@ int main(int argc, char** argv) {
           {"own", plumbline::battery::World::own},
           {"lagrangian", plumbline::battery::World::lagrangian},
           {"mujoco", plumbline::battery::World::mujoco}}));
-  app.add_flag(
+  CLI::Option* lab = app.add_flag(
       "--lab", inputs.run.lab,
       "foreign worlds: ratios, centres of mass, lengths, sensors' zeros and delays scattered as a laboratory "
       "would know them, and constants of shape off the search's grid");
+  app.add_flag("--tolerances", inputs.run.tolerances,
+               "with --lab: the model that is diagnosed states how well these numbers are known")
+      ->needs(lab);
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
   app.add_flag("--sweep", inputs.sweep,
                "diagnose each case again with half and twice the value of every constant of the policy");

@@ -19,6 +19,9 @@ std::string head_of(const RunOptions& options) {
   if (options.world != World::own) {
     head["world"] = to_string(options.world);
     head["lab"] = options.lab;
+    if (options.tolerances) {
+      head["tolerances"] = true;
+    }
   }
   return head.dump();
 }

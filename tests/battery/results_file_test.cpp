@@ -42,7 +42,7 @@ class ResultsFileTest : public testing::Test {
 
   std::string file_ =
       (std::filesystem::temp_directory_path() / ("plumbline_results_" + std::to_string(getpid()))).string();
-  RunOptions options_{7, World::own, false, false, false, "", false};
+  RunOptions options_{7};
 };
 
 TEST_F(ResultsFileTest, KeepsWhatTheScoreboardCounts) {

@@ -222,7 +222,8 @@ void run(const RunOptions& options, Result& result) {
     const validation::Progress silent = [](const std::string& /*what*/, double /*fraction*/) {};
     const validation::Progress progress = options.timing ? timed_lines() : silent;
     const validation::Diagnosis diagnosis =
-        validation::diagnose(bare, catalogue_of(one), data, options.policy, progress);
+        validation::diagnose(options.tolerances ? worlds::with_tolerances(bare) : bare, catalogue_of(one),
+                             data, options.policy, progress);
     if (options.timing) {
       print_ladder(diagnosis);
     }

@@ -59,8 +59,9 @@ struct Result {
 struct RunOptions {
   std::uint64_t seed = 1;
   World world = World::own;
-  bool lab = false;        ///< numbers without a stated uncertainty are scattered, too; foreign worlds only
-  bool bare_only = false;  ///< held-out trials only and no diagnosis
+  bool lab = false;         ///< numbers without a stated uncertainty are scattered, too; foreign worlds only
+  bool tolerances = false;  ///< the model that is diagnosed states how well it knows them
+  bool bare_only = false;   ///< held-out trials only and no diagnosis
   bool as_stated =
       false;            ///< the robot's own numbers are exactly those of the model, not scattered about them
   std::string write;    ///< folder into which each case's trials are written, nothing diagnosed; empty: none

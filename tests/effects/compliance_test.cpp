@@ -189,5 +189,18 @@ TEST(Cogging, RepeatsWithEveryCycleAndHasNoMean) {
   EXPECT_NEAR(mean, 0.0, 1e-12);
 }
 
+// A neighbouring count is another torque: what is not looked for is not found.
+TEST(Cogging, IsLookedForAtEveryCountOfSmallMotors) {
+  const auto law = law_named("cogging");
+  const auto cycles = static_cast<std::size_t>(law->parameter_index("cycles"));
+  std::set<double> counts;
+  for (const Values& start : law->starts({})) {
+    counts.insert(start[cycles]);
+  }
+  for (int count = 2; count <= 48; ++count) {
+    EXPECT_EQ(counts.count(count), 1U) << count;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::effects

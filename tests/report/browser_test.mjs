@@ -142,6 +142,11 @@ const tests = {
     assert.equal(joined.length, 2);
     assert.match(joined[1], /^quadratic at shoulder\s*rival/);
   },
+  async "forces are compared below a frequency that stands beside them"(page) {
+    const forces = await page.locator("#forces > p:not(.note)").allInnerTexts();
+    assert.ok(forces.length > 0);
+    for (const force of forces) assert.match(force, /of the recorded force below \d[\d.]* Hz; it /);
+  },
   async "what is needed to repeat it"(page) {
     assert.match(await text(page, "#repetition pre"), /^plumbline report trials\/chirp trials\/steps/);
     const hashes = await page.locator("#repetition .hash").allInnerTexts();

@@ -105,6 +105,21 @@ TEST(Summary, APartIsNotTheAnswer) {
   EXPECT_THAT(text, Not(HasSubstr("Missing")));
 }
 
+TEST(Summary, SaysWhatWasTakenAsExactWhereSomethingIsLeft) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::unexplained, 12.5, 5.0);
+  EXPECT_THAT(summary(diagnosis),
+              HasSubstr("no uncertainty of its ratios, centres of mass, the commands' delays"));
+  model::EffectUse shift;
+  shift.law = effects::Catalogue::all().find("com_shift");
+  shift.at = "arm";
+  shift.values.resize(3);
+  diagnosis.final_stage.model.effects.push_back(shift);
+  EXPECT_THAT(summary(diagnosis), HasSubstr("centres of mass"));  // none is stated of it
+  diagnosis.final_stage.model.effects.back().values[0].uncertainty = 3e-4;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("no uncertainty of its ratios, the commands' delays"));
+  EXPECT_THAT(summary(found({"coulomb"}, Verdict::missing, 12.5, 1.0)), Not(HasSubstr("exact")));
+}
+
 TEST(Summary, WithoutHeldOutTrialsSpeaksOfTheTrainError) {
   Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 0.0, 0.0);
   diagnosis.accepted[0].train_before = 8.0;

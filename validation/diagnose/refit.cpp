@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "validation/diagnose/family.h"
 #include "validation/diagnose/first_of_each.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/refit_one.h"
@@ -29,15 +30,25 @@ void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::ve
   }
 }
 
-/// Full refits of those that are near the best; above the floor of the first few in any case: the best so far
-/// may be refused, or a law with a threshold may still be on its way.
+/// A friction of fewer parameters at the place of a friction that leads: how it fades towards standstill is
+/// fitted in the full refit alone, and it may be as good then.
+bool is_simpler_friction(const Refit& one, const Refit& leader, const std::vector<Candidate>& candidates) {
+  const Candidate& simple = candidates[static_cast<std::size_t>(one.candidate)];
+  const Candidate& leading = candidates[static_cast<std::size_t>(leader.candidate)];
+  return one.own < leader.own && simple.at == leading.at && is_friction(*simple.law) &&
+         is_friction(*leading.law);
+}
+
+/// Full refits of those that are near the best, and of simpler frictions in its place; above the floor of the
+/// first few in any case: the best so far may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
             const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
     const bool near = one.square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
-    if (near || (r < kFirst && !at_floor(refits, data, policy))) {
+    if (near || is_simpler_friction(one, refits.front(), candidates) ||
+        (r < kFirst && !at_floor(refits, data, policy))) {
       finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, policy, progress);
     }
   }

@@ -1,9 +1,11 @@
 #include "validation/diagnose/refit_one.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "simulator/effects/parameters.h"
 #include "validation/diagnose/judged.h"
 #include "validation/predict/carried_states.h"
 
@@ -91,6 +93,54 @@ void continue_refit(Refit& refit, const Data& data, int iterations) {
   refit.extended.theta = refit.estimate.theta;
 }
 
+/// The smoothing speed of a new friction, free beside the refit's parameters within what is slow against the
+/// motion; none where its law has none.
+std::optional<FreeParameter> smoothing_of(const Refit& refit, const effects::Scales& scales) {
+  constexpr double kSlowest = 1e-4,
+                   kFastest = 0.3;  // of the motion's rms speed: faster it is viscous friction
+  const auto e = static_cast<std::size_t>(refit.added.front());
+  const model::EffectUse& use = refit.extended.model.effects[e];
+  const std::vector<effects::Parameter>& parameters = use.law->declaration().parameters;
+  const auto p = static_cast<std::size_t>(
+      std::find_if(parameters.begin(), parameters.end(), effects::is_smoothing_speed) - parameters.begin());
+  if (p == parameters.size() || refit.added.size() != 1) {
+    return std::nullopt;
+  }
+  FreeParameter free;
+  free.id = {refit.added.front(), static_cast<int>(p)};
+  free.label = use.label() + ":" + parameters[p].name;
+  free.scale = effects::Scale::logarithm;
+  free.lower = kSlowest * scales.velocity;
+  free.upper = kFastest * scales.velocity;
+  free.typical = use.values[p].value;
+  return free;
+}
+
+/// Where a motion rests, how friction fades towards standstill decides how far it creeps, and no start knows
+/// that. It is fitted beside the others, kept where the cost falls by much, and a constant from then on: most
+/// motions say nothing of it.
+void fit_smoothing(Refit& refit, const FreeParameter& smoothing, const Data& data) {
+  constexpr int kIterations = 10;
+  constexpr double kMuch = 0.8;
+  Refit wider = refit;
+  wider.extended.parameters.push_back(smoothing);
+  Eigen::VectorXd& theta = wider.estimate.theta;
+  theta.conservativeResize(theta.size() + 1);
+  theta[theta.size() - 1] = smoothing.typical;
+  continue_refit(wider, data, kIterations);
+  if (wider.estimate.cost > kMuch * refit.estimate.cost) {
+    return;
+  }
+  Refit settled = refit;
+  settled.extended.model = with_values(settled.extended.model, {smoothing}, wider.estimate.theta.tail(1));
+  settled.estimate.x0 = wider.estimate.x0;
+  settled.estimate.theta = wider.estimate.theta.head(wider.estimate.theta.size() - 1);
+  continue_refit(settled, data, kIterations);
+  if (settled.estimate.cost < refit.estimate.cost) {
+    refit = std::move(settled);
+  }
+}
+
 }  // namespace
 
 bool jumps(const model::EffectUse& use) {
@@ -142,20 +192,26 @@ void finish_one(Refit& one, const Candidate& candidate, const Data& data, const 
                 const Progress& progress) {
   constexpr int kIterations = 8;  // and as many again
   constexpr double kStillFalls = 0.7;
-  if (one.is_full || one.estimate.converged) {
+  const std::optional<FreeParameter> smoothing = smoothing_of(one, candidate.scales);
+  if (one.is_full || (one.estimate.converged && !smoothing)) {
     return;
   }
   progress("finishing " + candidate.label(), 0.9);
   one.is_full = true;
   Refit further = one;
   try {
-    continue_refit(further, data, kIterations);
+    if (!one.estimate.converged) {
+      continue_refit(further, data, kIterations);
+    }
     // Where much else is missing the last values mean little.
     if (!further.estimate.converged &&
         (is_below(policy.far, further.estimate, data) || further.square() < kStillFalls * one.square())) {
       continue_refit(further, data, kIterations);
     }
     one = std::move(further);
+    if (smoothing && !data.has_segments() && !is_below(policy.nothing, one.estimate, data)) {
+      fit_smoothing(one, *smoothing, data);
+    }
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {

@@ -1,9 +1,11 @@
 #include "validation/report/sentences.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "validation/diagnose/own_parameters.h"
 
@@ -237,12 +239,42 @@ std::string open_values_sentence(const Diagnosis& diagnosis) {
       last.held_out(), last.foretold());
 }
 
+/// What the model states as exact and no laboratory knows exactly, where something stays unexplained; else
+/// empty.
+std::string exact_sentence(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict != Verdict::unexplained) {
+    return "";
+  }
+  const std::vector<model::EffectUse>& uses = diagnosis.final_stage.model.effects;
+  const auto is_stated = [&](const std::string& law) {
+    return std::any_of(uses.begin(), uses.end(), [&](const model::EffectUse& use) {
+      return use.law->declaration().name == law &&
+             std::any_of(use.values.begin(), use.values.end(),
+                         [](const model::Quantity& value) { return value.uncertainty > 0.0; });
+    });
+  };
+  std::vector<std::string> exact;
+  for (const auto& [law, constants] :
+       {std::pair("encoder_scale", "ratios"), std::pair("com_shift", "centres of mass"),
+        std::pair("command_delay", "the commands' delays")}) {
+    if (!is_stated(law)) {
+      exact.emplace_back(constants);
+    }
+  }
+  return exact.empty()
+             ? ""
+             : fmt::format(
+                   "The model states no uncertainty of its {}: they were taken as exact, and may be part of "
+                   "what is left (docs/tutorial.md says how to state it).",
+                   fmt::join(exact, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Diagnosis& diagnosis) {
   std::vector<std::string> said;
-  for (const std::string& one :
-       {test_sentence(diagnosis), open_values_sentence(diagnosis), part_sentence(diagnosis)}) {
+  for (const std::string& one : {test_sentence(diagnosis), open_values_sentence(diagnosis),
+                                 part_sentence(diagnosis), exact_sentence(diagnosis)}) {
     if (!one.empty()) {
       said.push_back(one);
     }

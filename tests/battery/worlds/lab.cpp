@@ -109,6 +109,42 @@ std::vector<Unknown> unstated(const Rig& rig) {
   return list;
 }
 
+model::Model with_tolerances(const model::Model& model) {
+  model::Model open = model;
+  const auto state = [&](const std::string& law, const std::string& at, double deviation) {
+    model::EffectUse use;
+    use.law = effects::Catalogue::all().find(law);
+    use.at = at;
+    for (const double null : use.law->null_values()) {
+      model::Quantity quantity;
+      quantity.value = null;
+      quantity.uncertainty = deviation;
+      use.values.push_back(quantity);
+    }
+    open.effects.push_back(std::move(use));
+  };
+  for (const model::Body& body : model.skeleton.bodies) {
+    if (body.mass > 0.0 && body.mass_uncertainty > 0.0) {
+      state("com_shift", body.name, kCentre);
+    }
+  }
+  for (const model::Motor& motor : model.motors) {
+    state("command_delay", motor.name, kDelay);
+  }
+  for (const model::Sensor& sensor : model.sensors) {
+    if (!sensor.shows_position()) {
+      continue;
+    }
+    state("encoder_offset", sensor.name, kZeroCounts * sensor.resolution);
+    const bool is_at_motor = std::any_of(model.motors.begin(), model.motors.end(),
+                                         [&](const model::Motor& m) { return m.name == sensor.measures; });
+    if (is_at_motor) {
+      state("encoder_scale", sensor.name, kRatio);
+    }
+  }
+  return open;
+}
+
 void scatter(const std::vector<Unknown>& unknowns, Draw& draw, Rig& rig) {
   for (const Unknown& unknown : unknowns) {
     unknown.move(rig, draw.deviations());

@@ -25,6 +25,11 @@ std::vector<Unknown> stated(const model::Model& model);
 /// delay of the commands. Reasons stand beside the values in lab.cpp.
 std::vector<Unknown> unstated(const Rig& rig);
 
+/// The model with the same stated, as a laboratory may state it: effects at their null values with that
+/// uncertainty (com_shift, command_delay, encoder_offset, and encoder_scale at motors' encoders for ratios;
+/// lengths have no effect).
+model::Model with_tolerances(const model::Model& model);
+
 /// Moves each by a normal draw, at most kMostDeviations.
 void scatter(const std::vector<Unknown>& unknowns, Draw& draw, Rig& rig);
 

@@ -11,7 +11,7 @@ function drawForces() {
   }
   $("forces").replaceChildren(...forces.flatMap((force) => [
     make("h3", {}, `${force.at}, ${force.trial}`),
-    make("p", {}, `${withUnit(force.rms, force.unit, 3)} rms, ${percent(force.relative)} of the recorded force; it ${force.words}.`),
+    make("p", {}, `${withUnit(force.rms, force.unit, 3)} rms, ${percent(force.relative)} of the recorded force${force.below === null ? "" : ` below ${withUnit(force.below, "Hz", 3)}`}; it ${force.words}.`),
     make("div", { class: "curves" }, force.dependences.map((dependence) => curve(dependence, force))),
   ]));
 }
