@@ -15,6 +15,7 @@
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/diagnose/promise.h"
+#include "validation/diagnose/refit_one.h"
 #include "validation/diagnose/revise.h"
 
 namespace plumbline::validation {
@@ -96,11 +97,19 @@ Stage Diagnoser::opened(const Stage& given) const {
 
 double Diagnoser::enough() const { return std::isinf(length_) ? policy_.at_floor : policy_.finished; }
 
+/// So far above the floor, behind a stop or play that was just named, each candidate is searched through its
+/// contacts, and what is named there seldom stands on all windows.
+bool Diagnoser::is_costly(const Diagnosis& diagnosis) const {
+  const Stage& stage = diagnosis.final_stage;
+  return !diagnosis.accepted.empty() && jumps(fitted_model(stage).effects.back()) &&
+         !is_below(policy_.hopeless, stage.estimate, data_);
+}
+
 void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
   for (int round = 0; round < most; ++round) {
     const bool is_needed =
         (in_any_case && round == 0) || !is_below(enough(), diagnosis.final_stage.estimate, data_);
-    if (!is_needed || !step(diagnosis, round)) {
+    if (!is_needed || is_costly(diagnosis) || !step(diagnosis, round)) {
       break;
     }
   }

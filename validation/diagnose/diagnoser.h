@@ -37,6 +37,7 @@ class Diagnoser {
   /// The error at which there is nothing to look for. On segments of the windows one that would be an answer:
   /// what little is left shows better further on.
   double enough() const;
+  bool is_costly(const Diagnosis& diagnosis) const;
   /// One effect after the other from where the ladder stands, the first in any case if so.
   void look(int most, Diagnosis& diagnosis, bool in_any_case = false);
   /// As a whole: an interruption must not leave parameters without their values.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "simulator/effects/parameters.h"
 #include "validation/diagnose/resample.h"
 #include "validation/predict/deviations.h"
 
@@ -26,7 +27,7 @@ std::string why_not_refitted(int candidate, const std::vector<NotRefitted>& fail
   return found == failed.end() ? "" : "could not be fitted: " + found->reason;
 }
 
-/// Structural values of which the law tries more than one: the side of a stop.
+/// Structural values of which the law tries more than one, as the side of a stop, or that are fitted once.
 std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
   std::vector<ParameterValue> values;
   const std::vector<effects::Parameter>& parameters = use.law->declaration().parameters;
@@ -35,7 +36,7 @@ std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
     const bool varies = std::any_of(starts.begin(), starts.end(), [&](const effects::Values& start) {
       return start[p] != starts.front()[p];
     });
-    if (parameters[p].structural && varies) {
+    if (parameters[p].structural && (varies || effects::is_smoothing_speed(parameters[p]))) {
       values.push_back({parameters[p].name, parameters[p].unit, use.values[p].value, 0.0, true});
     }
   }

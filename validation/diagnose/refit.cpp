@@ -26,7 +26,8 @@ void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::ve
   constexpr double kLeft = 0.1;
   Refit& leader = refits.front();
   if (leader.square() < kLeft * stage.estimate.predicted.scores.square()) {
-    finish_one(leader, candidates[static_cast<std::size_t>(leader.candidate)], data, policy, progress);
+    finish_one(leader, stage.estimate.predicted.scores.square(),
+               candidates[static_cast<std::size_t>(leader.candidate)], data, policy, progress);
   }
 }
 
@@ -41,15 +42,16 @@ bool is_simpler_friction(const Refit& one, const Refit& leader, const std::vecto
 
 /// Full refits of those that are near the best, and of simpler frictions in its place; above the floor of the
 /// first few in any case: the best so far may be refused, or a law with a threshold may still be on its way.
-void finish(std::vector<Refit>& refits, const std::vector<Candidate>& candidates, const Data& data,
-            const Policy& policy, const Progress& progress) {
+void finish(std::vector<Refit>& refits, double square_before, const std::vector<Candidate>& candidates,
+            const Data& data, const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
     const bool near = one.square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
     if (near || is_simpler_friction(one, refits.front(), candidates) ||
         (r < kFirst && !at_floor(refits, data, policy))) {
-      finish_one(one, candidates[static_cast<std::size_t>(one.candidate)], data, policy, progress);
+      finish_one(one, square_before, candidates[static_cast<std::size_t>(one.candidate)], data, policy,
+                 progress);
     }
   }
   sort_by_error(refits);
@@ -253,7 +255,7 @@ class Round {
       add(*one, 0.95);
     }
     if (!simpler.empty()) {
-      finish(refits_, candidates_, data_, policy_, progress_);
+      finish(refits_, stage_.estimate.predicted.scores.square(), candidates_, data_, policy_, progress_);
     }
   }
 
@@ -286,7 +288,7 @@ class Round {
 
   void keep_and_finish() {
     keep_best_of_each(refits_);
-    finish(refits_, candidates_, data_, policy_, progress_);
+    finish(refits_, stage_.estimate.predicted.scores.square(), candidates_, data_, policy_, progress_);
   }
   void report(const Hypothesis& hypothesis, const std::string& reason) {
     if (failed_ != nullptr) {

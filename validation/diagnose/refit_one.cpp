@@ -188,8 +188,9 @@ bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hyp
   }
 }
 
-void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Policy& policy,
-                const Progress& progress) {
+void finish_one(Refit& one, double square_before, const Candidate& candidate, const Data& data,
+                const Policy& policy, const Progress& progress) {
+  constexpr double kLeft = 0.1;   // of the squared error: what else is missing does not decide how it fades
   constexpr int kIterations = 8;  // and as many again
   constexpr double kStillFalls = 0.7;
   const std::optional<FreeParameter> smoothing = smoothing_of(one, candidate.scales);
@@ -209,7 +210,8 @@ void finish_one(Refit& one, const Candidate& candidate, const Data& data, const 
       continue_refit(further, data, kIterations);
     }
     one = std::move(further);
-    if (smoothing && !data.has_segments() && !is_below(policy.nothing, one.estimate, data)) {
+    const bool explains = one.square() < kLeft * square_before || is_below(policy.far, one.estimate, data);
+    if (smoothing && explains && !data.has_segments() && !is_below(policy.nothing, one.estimate, data)) {
       fit_smoothing(one, *smoothing, data);
     }
   } catch (const Stopped&) {

@@ -26,8 +26,9 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
 bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
                        const Data& data, const Effort& effort, const Refit& best);
 
-/// A full refit, if it can be had.
-void finish_one(Refit& one, const Candidate& candidate, const Data& data, const Policy& policy,
-                const Progress& progress);
+/// A full refit, if it can be had. Of a friction that explains nearly all of the squared error before it, or
+/// that is near the floor, how it fades towards standstill is fitted, too.
+void finish_one(Refit& one, double square_before, const Candidate& candidate, const Data& data,
+                const Policy& policy, const Progress& progress);
 
 }  // namespace plumbline::validation
