@@ -64,7 +64,7 @@ struct RunOptions {
   bool bare_only = false;   ///< held-out trials only and no diagnosis
   bool as_stated =
       false;            ///< the robot's own numbers are exactly those of the model, not scattered about them
-  std::string write;    ///< folder into which each case's trials are written, nothing diagnosed; empty: none
+  std::string write{};  ///< folder into which each case's trials are written, nothing diagnosed; empty: none
   bool timing = false;  ///< what the diagnosis does, and when, to the standard error
   validation::Policy policy{};
   std::shared_ptr<validation::KeptResults>
