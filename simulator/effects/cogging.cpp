@@ -41,9 +41,9 @@ Values Cogging::typical(const Scales& scales) const {
 }
 
 std::vector<Values> Cogging::starts(const Scales& /*scales*/) const {
-  std::vector<int> counts(std::begin(kMultiples), std::end(kMultiples));
-  counts.resize(counts.size() + kMost - kFewest + 1);
-  std::iota(counts.begin() + std::size(kMultiples), counts.end(), kFewest);
+  std::vector<int> counts(kMost - kFewest + 1);
+  std::iota(counts.begin(), counts.end(), kFewest);
+  counts.insert(counts.end(), std::begin(kMultiples), std::end(kMultiples));
   std::vector<Values> grid;
   for (const int cycles : counts) {
     Values p = null_values();
