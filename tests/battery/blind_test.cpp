@@ -115,7 +115,7 @@ TEST(Blind, StrongCoggingOnTheGridIsNamed) {
 }
 
 TEST(Blind, CoggingOfAnUnusualCountIsNamed) {
-  const Diagnosis found = diagnosed(pendulum(), {"cogging@drive:sine=8e-3,cosine=6e-3,cycles=11"});
+  const Diagnosis found = diagnosed(pendulum(), {"cogging@drive:sine=2e-3,cosine=1.5e-3,cycles=11"});
   ASSERT_EQ(names(found), "cogging@drive") << validation::summary(found);
   const auto& values = found.accepted.front().parameters;
   const auto cycles =
