@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
   CLI::Option* lab = app.add_flag(
       "--lab", inputs.run.lab,
       "foreign worlds: ratios, centres of mass, lengths, sensors' zeros and delays scattered as a laboratory "
-      "would know them, and constants of shape off the search's grid");
+      "would know them, and unusual constants of shape");
   app.add_flag("--tolerances", inputs.run.tolerances,
                "with --lab: the model that is diagnosed states how well these numbers are known")
       ->needs(lab);

@@ -96,8 +96,8 @@ void continue_refit(Refit& refit, const Data& data, int iterations) {
 /// The smoothing speed of a new friction, free beside the refit's parameters within what is slow against the
 /// motion; none where its law has none.
 std::optional<FreeParameter> smoothing_of(const Refit& refit, const effects::Scales& scales) {
-  constexpr double kSlowest = 1e-4,
-                   kFastest = 0.3;  // of the motion's rms speed: faster it is viscous friction
+  constexpr double kSlowest = 1e-4;  // of the motion's rms speed
+  constexpr double kFastest = 0.3;   // faster it is viscous friction
   const auto e = static_cast<std::size_t>(refit.added.front());
   const model::EffectUse& use = refit.extended.model.effects[e];
   const std::vector<effects::Parameter>& parameters = use.law->declaration().parameters;

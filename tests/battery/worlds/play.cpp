@@ -22,12 +22,12 @@ using validation::Role;
 
 std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT) + "/" + file; }
 
-// Slots and poles that the search's list of usual counts has not.
+// Slots and poles that few motors have.
 constexpr std::array<double, 8> kUnusualCycles{5, 9, 11, 13, 15, 17, 26, 33};
 constexpr double kExponentSpread = 0.5;  // of Stribeck's exponent about 2: half to two is reported for oils
 
-/// Constants of shape that no search knows.
-void leave_the_grid(Hidden& effect, Draw& draw) {
+/// Constants of shape as few robots have them; no fit moves Stribeck's exponent.
+void take_unusual_shape(Hidden& effect, Draw& draw) {
   if (effect.effect == "cogging") {
     effect.values["cycles"] = kUnusualCycles[draw.seed() % kUnusualCycles.size()];
   }
@@ -139,7 +139,7 @@ Played play(const Case& one, const model::Model& bare, const std::vector<std::st
   for (const std::string& text : hidden) {
     Hidden effect = hidden_from(text);
     if (options.lab) {
-      leave_the_grid(effect, draw);
+      take_unusual_shape(effect, draw);
     }
     hide(effect, with);
     played.text += (played.text.empty() ? "" : " ") + text;

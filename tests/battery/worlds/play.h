@@ -15,7 +15,7 @@ struct PlayOptions {
   std::uint64_t seed = 1;
   bool held_out_only = false;
   bool as_stated = false;  ///< the stated numbers exactly as stated
-  bool lab = false;     ///< numbers without a stated uncertainty scattered, too; laws off the search's grid
+  bool lab = false;     ///< numbers without a stated uncertainty scattered, too; unusual constants of shape
   bool mujoco = false;  ///< rigid bodies, friction, stops and integration by MuJoCo
 };
 
