@@ -23,6 +23,7 @@
 #include "simulator/effects/hysteresis.h"
 #include "simulator/effects/load_friction.h"
 #include "simulator/effects/lugre.h"
+#include "simulator/effects/payload.h"
 #include "simulator/effects/preload.h"
 #include "simulator/effects/quadratic.h"
 #include "simulator/effects/rotor_inertia.h"
@@ -65,6 +66,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
       std::make_shared<const ComShift>(),
+      std::make_shared<const Payload>(),
       std::make_shared<const GravityTilt>(),
       std::make_shared<const Boom>(),
       std::make_shared<const EncoderOffset>(),

@@ -13,6 +13,23 @@ namespace plumbline::model {
 
 using effects::Place;
 
+namespace {
+
+/// Body and a point mass at r, given in the body's frame, become one rigid body (theorem of parallel axes).
+void hang_on(Body& body, double mass, const Eigen::Vector3d& r) {
+  if (mass == 0.0) {
+    return;
+  }
+  const double total = body.mass + mass;
+  const Eigen::Vector3d lever = r - body.com;
+  body.inertia += body.mass * mass / total *
+                  (lever.squaredNorm() * Eigen::Matrix3d::Identity() - lever * lever.transpose());
+  body.com += mass / total * lever;
+  body.mass = total;
+}
+
+}  // namespace
+
 Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain)
     : model_(model), terrain_(std::move(terrain)) {
   for (const EffectUse& use : model_.effects) {
@@ -306,6 +323,7 @@ void Plant::apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::V
       }
       body.mass = mass;
       body.com += change.com_shift;
+      hang_on(body, change.payload, change.payload_at);
       return;
     }
     case Place::world:
@@ -407,26 +425,6 @@ std::vector<std::string> Plant::state_names() const {
     }
   }
   return names;
-}
-
-std::vector<int> Plant::force_states() const {
-  std::vector<int> indices;
-  for (const ForceSlot& slot : forces_) {
-    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
-      indices.push_back(slot.state + k);
-    }
-  }
-  return indices;
-}
-
-std::vector<int> Plant::force_state_effects() const {
-  std::vector<int> effects;
-  for (const ForceSlot& slot : forces_) {
-    if (slot.state >= 0) {
-      effects.insert(effects.end(), static_cast<std::size_t>(slot.law->state_count()), slot.effect);
-    }
-  }
-  return effects;
 }
 
 double Plant::value(ParameterId id) const {

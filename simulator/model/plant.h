@@ -79,10 +79,11 @@ class Plant {
   int sensors() const { return static_cast<int>(model_.sensors.size()); }
   /// "position of mLA_left", "velocity of ..." (joint, motor or pulley), "bristle of lugre at mLS".
   std::vector<std::string> state_names() const;
-  /// Indices in x of the hidden states of force laws (bristles).
-  std::vector<int> force_states() const;
-  /// The effect that each of them belongs to.
-  std::vector<int> force_state_effects() const;
+  /// Indices in x of the hidden states that the past determines: those of force laws (bristles), which follow
+  /// the motion, and those of actuators, which follow the commands.
+  std::vector<int> carried_states() const;
+  /// The effects whose parameters decide what they are carried to.
+  std::vector<int> carried_state_effects() const;
 
   /// Time derivative of the state for the commands that hold now (delayed already, in command units).
   void rate(const double* x, const double* command, double* xdot);
@@ -124,10 +125,11 @@ class Plant {
   /// Hidden states in equilibrium with the commands, written behind the positions and velocities of x.
   void settle(const double* command, double* x) const;
 
-  /// Hidden states of force laws (bristles) carried along a known motion from `from` to `to` in h seconds,
-  /// written behind the positions and velocities of x. By the exponential Euler method at the middle, each
-  /// state on its own (Hochbruck and Ostermann, Acta Numerica 19, 2010): stable for stiff bristles.
-  void carry_force_states(const double* from, const double* to, double h, double* x) const;
+  /// The states of carried_states() carried in h seconds along a known motion from `from` to `to`, under
+  /// commands that hold meanwhile (delayed already); written behind the positions and velocities of x. By the
+  /// exponential Euler method at the middle, each state on its own (Hochbruck and Ostermann, Acta Numerica
+  /// 19, 2010): stable for stiff bristles, exact for a lag of first order.
+  void carry_states(const double* from, const double* to, const double* command, double h, double* x) const;
 
   /// Switching functions of all force laws.
   int switch_count() const { return switch_count_; }

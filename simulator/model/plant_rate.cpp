@@ -24,11 +24,12 @@ effects::Motion Plant::motion(const ForceSlot& slot, const double* x) const {
   return {position, velocity, slot.law->feels_gear_load() ? gear_load_[slot.motor] : torque_[slot.motor]};
 }
 
+// A constant per ampere or volt beside a command that is a torque already says how that torque was made.
 double Plant::torque_gain(int motor) const {
   const Motor& m = model_.motors[static_cast<std::size_t>(motor)];
-  return m.torque_constant.value > 0.0 && m.command_unit != "N m" && m.command_unit != "N"
-             ? m.torque_constant.value
-             : 1.0;
+  const bool commands_force = m.command_unit == "N m" || m.command_unit == "N";
+  const bool applies = m.torque_constant.value > 0.0 && (!commands_force || m.torque_constant.unit == "1");
+  return applies ? m.torque_constant.value : 1.0;
 }
 
 double Plant::delay(int motor) const {
@@ -243,57 +244,6 @@ Eigen::RowVectorXd Plant::switch_lateness_slope(const std::string& contact_switc
     }
   }
   return slope;
-}
-
-void Plant::carry_force_states(const double* from, const double* to, double h, double* x) const {
-  for (const ForceSlot& slot : forces_) {
-    if (slot.state < 0 || !slot.active) {
-      continue;
-    }
-    const auto along = [&](const double* at) {
-      const Vector z(at, nz_);
-      const Vector w(at + nz_, nz_);
-      return std::make_pair(slot.line.offset + slot.line.reduced.dot(z), slot.line.reduced.dot(w));
-    };
-    const auto [q0, v0] = along(from);
-    const auto [q1, v1] = along(to);
-    const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), 0.0};
-    const int states = slot.law->state_count();
-    const double* p = values(slot.effect);
-    double* s = x + slot.state;
-    const Few before = Vector(s, states);
-    Few moved = before;
-    Few rate(states);
-    Few other(states);
-    slot.law->state_rate(middle, before.data(), p, rate.data());
-    for (int k = 0; k < states; ++k) {
-      const double step = 1e-6 * (1.0 + std::abs(before[k]));
-      moved[k] += step;
-      slot.law->state_rate(middle, moved.data(), p, other.data());
-      moved[k] = before[k];
-      const double reach = h * (other[k] - rate[k]) / step;
-      s[k] += h * rate[k] * (std::abs(reach) > 1e-8 ? std::expm1(reach) / reach : 1.0);
-    }
-  }
-}
-
-void Plant::settle(const double* command, double* x) const {
-  for (const ForceSlot& slot : forces_) {
-    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
-      x[slot.state + k] = 0.0;
-    }
-  }
-  for (int m = 0; m < motors(); ++m) {
-    double torque = asked_torque(*this, m, command[m]);
-    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
-      if (slot.state >= 0) {
-        slot.law->settle(torque, values(slot.effect), x + slot.state);
-      }
-      if (slot.state >= 0 || slot.law->state_count() == 0) {
-        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
-      }
-    }
-  }
 }
 
 void Plant::switches(const double* x, double* g) {

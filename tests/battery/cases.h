@@ -80,7 +80,8 @@ Case case_of(const std::string& name);
 /// bodies that the bench hides behind rigid ratios (or that do not move) are left out.
 std::vector<Row> expected_leg_bench_rows(const model::Model& model, const effects::Catalogue& catalogue);
 /// The same for the hopper: nothing on it turns and its foot does not slip, so that a centre of mass, a small
-/// tilt of gravity and the ground's friction move nothing.
+/// tilt of gravity and the ground's friction move nothing; where a payload hangs does not show there, and its
+/// mass alone is an added mass.
 std::vector<Row> expected_hopper_rows(const model::Model& model, const effects::Catalogue& catalogue);
 
 }  // namespace plumbline::battery

@@ -16,8 +16,10 @@ std::vector<std::string> searched(const std::string& law, const std::string& pla
   std::vector<std::string> labels;
   for (const Candidate& candidate : list_candidates(pool, some_laws({law}), {}, stage.estimate)) {
     if (candidate.at == place) {
-      const model::EffectUse use = make_use(candidate, candidate.law->typical(candidate.scales));
-      for (const FreeParameter& one : searched_parameters_of(candidate, use, 0, true)) {
+      model::Model model = stage.model;
+      model.effects.push_back(make_use(candidate, candidate.law->typical(candidate.scales)));
+      const auto added = static_cast<int>(model.effects.size()) - 1;
+      for (const FreeParameter& one : searched_parameters_of(model, candidate, added)) {
         labels.push_back(one.label);
       }
     }

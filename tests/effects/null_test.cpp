@@ -105,6 +105,7 @@ TEST(NullValues, LeaveTheStructureAlone) {
     const StructureChange change = structure->change(law->null_values().data());
     EXPECT_EQ(change.inertia, 0.0);
     EXPECT_EQ(change.mass, 0.0);
+    EXPECT_EQ(change.payload, 0.0);
     EXPECT_EQ(change.com_shift.norm(), 0.0);
     EXPECT_EQ(change.tilt.norm(), 0.0);
   }

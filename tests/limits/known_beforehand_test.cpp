@@ -20,18 +20,19 @@ TEST(CarriedBristle, FollowsTheClosedFormAtConstantSpeed) {
   const model::Model model =
       with_effect(leg_bench(), "lugre", "mLA", {level, 0.0, 1.0, stiffness, 0.01, 0.0});
   const model::Plant plant(model, {});
-  const std::vector<int> bristles = plant.force_states();
+  const std::vector<int> bristles = plant.carried_states();
   ASSERT_EQ(bristles.size(), 1U);
   Eigen::VectorXd from = Eigen::VectorXd::Zero(plant.states());
   from[plant.positions()] = -0.3;
   const double v = plant.velocity_of("mLA", from.data());
   ASSERT_GT(std::abs(v), 0.01);
   const double h = 1e-3;
+  const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
   Eigen::VectorXd x = from;
   for (int k = 1; k <= 40; ++k) {
     Eigen::VectorXd to = from;
     to[0] = from[0] + h * from[plant.positions()];
-    plant.carry_force_states(from.data(), to.data(), h, x.data());
+    plant.carry_states(from.data(), to.data(), idle.data(), h, x.data());
     from = to;
     const double expected =
         std::copysign(level / stiffness, v) * (1.0 - std::exp(-stiffness * std::abs(v) * k * h / level));
@@ -47,9 +48,34 @@ TEST(CarriedBristle, IsStableWhenStiff) {
   at[plant.positions()] = 0.5;
   const double v = plant.velocity_of("mLA", at.data());
   Eigen::VectorXd x = at;
+  const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
   for (int k = 0; k < 5; ++k) {
-    plant.carry_force_states(at.data(), at.data(), 1e-3, x.data());
-    EXPECT_NEAR(x[plant.force_states()[0]], std::copysign(0.05 / 1e6, v), 1e-10);
+    plant.carry_states(at.data(), at.data(), idle.data(), 1e-3, x.data());
+    EXPECT_NEAR(x[plant.carried_states()[0]], std::copysign(0.05 / 1e6, v), 1e-10);
+  }
+}
+
+// A lag of first order under a command that holds: torque = u (1 - exp(-t / tau)), behind a gain that it
+// follows.
+TEST(CarriedLag, FollowsTheCommandsAndNotTheWindow) {
+  constexpr double kTau = 0.02;
+  constexpr double kGain = 1.25;
+  model::Model model = with_effect(leg_bench(), "torque_constant_error", "mLA", {kGain});
+  model = with_effect(model, "actuator_lag", "mLA", {kTau});
+  const model::Plant plant(model, {});
+  const std::vector<int> states = plant.carried_states();
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_EQ(plant.carried_state_effects().size(), 2U) << "the gain before the lag decides, too";
+  const int motor = model.motor_index("mLA");
+  Eigen::VectorXd command = Eigen::VectorXd::Zero(plant.motors());
+  command[motor] = 0.7;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  const Eigen::VectorXd still = x;
+  for (int k = 1; k <= 30; ++k) {
+    plant.carry_states(still.data(), still.data(), command.data(), 1e-3, x.data());
+    const double expected =
+        kGain * plant.torque_gain(motor) * command[motor] * (1.0 - std::exp(-1e-3 * k / kTau));
+    EXPECT_NEAR(x[states[0]], expected, 1e-6 * std::abs(expected)) << k;
   }
 }
 

@@ -104,7 +104,7 @@ class Tangent : public testing::TestWithParam<Case> {
 TEST_P(Tangent, AgreesWithDifferencesOfWholeWindows) {
   const validation::Linearisation found = expect_parameters();
   const std::vector<std::string> names = exact_->plant().state_names();
-  const std::vector<int> carried = exact_->plant().force_states();
+  const std::vector<int> carried = exact_->plant().carried_states();
   for (Eigen::Index i = 0; i < x0_.size(); ++i) {
     if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {
       EXPECT_EQ(found.Jx.col(i).norm(), 0.0) << "follows the measured motion, whatever the start";

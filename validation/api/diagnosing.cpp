@@ -16,10 +16,32 @@ using validation::Verdict;
 
 constexpr double kLittle = 0.02;  // share of the squared error that is not worth a look at the forces
 
-/// Does the model have an effect of this kind at the same place?
-bool has_one(const model::Model& model, const model::EffectUse& use) {
-  return std::any_of(model.effects.begin(), model.effects.end(),
-                     [&](const model::EffectUse& other) { return other.label() == use.label(); });
+/// Is an effect of this kind at the same place in the file already, from the model as given or added before?
+bool has_one(const model::Model& given, const std::vector<model::AddedEffect>& added,
+             const model::EffectUse& use) {
+  return std::any_of(given.effects.begin(), given.effects.end(),
+                     [&](const model::EffectUse& other) { return other.label() == use.label(); }) ||
+         std::any_of(added.begin(), added.end(), [&](const model::AddedEffect& other) {
+           return other.at == use.at && other.effect == use.law->declaration().name;
+         });
+}
+
+/// The number of the model that was opened before, where what was named is more of the same: a mass, an
+/// inertia.
+model::AddedEffect* same_number(std::vector<model::AddedEffect>& added, const model::EffectUse& use) {
+  const bool adds_up =
+      dynamic_cast<const effects::StructureLaw*>(use.law.get()) != nullptr && use.law->parameter_count() == 1;
+  const auto found = std::find_if(added.begin(), added.end(), [&](const model::AddedEffect& other) {
+    return other.at == use.at && other.effect == use.law->declaration().name;
+  });
+  return adds_up && found != added.end() ? &*found : nullptr;
+}
+
+/// Both together as one number; the deviations are those of a sum of independent parts.
+void add_up(const effects::Values& values, const effects::Values& deviations, model::AddedEffect& number) {
+  number.values.front() += values.front();
+  double& deviation = number.deviations.front();
+  deviation = std::isfinite(deviation) ? std::hypot(deviation, deviations.front()) : deviations.front();
 }
 
 }  // namespace
@@ -47,9 +69,14 @@ void save(const Diagnosis& diagnosis, const model::Model& given, const std::stri
   for (std::size_t e = own; e < stage.model.effects.size(); ++e) {
     const model::EffectUse& use = stage.model.effects[e];
     const effects::Values numbers = use.numbers();
-    if (!use.law->is_null(numbers.data())) {
-      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, use),
-                       validation::found_deviations(diagnosis, static_cast<int>(e))});
+    if (use.law->is_null(numbers.data())) {
+      continue;
+    }
+    const effects::Values deviations = validation::found_deviations(diagnosis, static_cast<int>(e));
+    if (model::AddedEffect* number = same_number(added, use)) {
+      add_up(numbers, deviations, *number);
+    } else {
+      added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, added, use), deviations});
     }
   }
   for (std::size_t p = 0; p < stage.parameters.size(); ++p) {

@@ -22,7 +22,9 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
 /// docs/formats/json-results.md, `diagnose`.
 nlohmann::json to_json(const Answer& answer);
 
-/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given.
+/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given. A
+/// mass or an inertia that was named beside a number of the model that stated an uncertainty is one number
+/// with it.
 void save(const validation::Diagnosis& diagnosis, const model::Model& given, const std::string& file);
 
 }  // namespace plumbline::api

@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_report(app, command_words(argc, argv));
     plumbline::cli::add_suggest(app, outcome);
     plumbline::cli::add_new_trial(app, outcome);
+    plumbline::cli::add_new_model(app, outcome);
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);
     plumbline::cli::add_spring_mass(app, outcome);

@@ -7,6 +7,7 @@
 #include "contact/ground_change.h"
 #include "simulator/effects/parameters.h"
 #include "simulator/model/planar_base.h"
+#include "validation/diagnose/physical_limits.h"
 #include "validation/diagnose/rates.h"
 
 namespace plumbline::validation {
@@ -352,8 +353,10 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
   return free;
 }
 
-std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, const model::EffectUse& use,
-                                                  int effect, bool angular) {
+std::vector<FreeParameter> searched_parameters_of(const model::Model& model, const Candidate& candidate,
+                                                  int effect) {
+  const model::EffectUse& use = model.effects[static_cast<std::size_t>(effect)];
+  const bool angular = model.place_is_angular(candidate.place, candidate.at);
   constexpr double kReach = 4.0;  // half ranges of the motion
   const effects::Scales& scales = candidate.scales;
   std::vector<FreeParameter> free = free_parameters_of(use, effect, scales, angular);
@@ -363,6 +366,7 @@ std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, co
   };
   free.erase(std::remove_if(free.begin(), free.end(), has_none), free.end());
   for (FreeParameter& one : free) {
+    keep_physical(model, use, one);
     if (effects::is_rest(use.law->declaration().parameters[static_cast<std::size_t>(one.id.parameter)])) {
       one.lower = std::max(one.lower, scales.center - kReach * scales.position);
       one.upper = std::min(one.upper, scales.center + kReach * scales.position);

@@ -34,11 +34,12 @@ model::EffectUse make_use(const Candidate& candidate, const effects::Values& val
 std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int effect,
                                               const effects::Scales& scales, bool angular);
 
-/// The same for a use of a candidate that is searched: without what has no effect, its rest lies near the
-/// motion, and a drive is no softer than the root mean square of its force over half the range of its motion.
-/// Seen from far away every law of a distance is a constant, and would be another law under this name.
-std::vector<FreeParameter> searched_parameters_of(const Candidate& candidate, const model::EffectUse& use,
-                                                  int effect, bool angular);
+/// The same for a use of a candidate that is searched, the effect at index `effect` of the model: within what
+/// is physical, without what has no effect, its rest lies near the motion, and a drive is no softer than the
+/// root mean square of its force over half the range of its motion. Seen from far away every law of a
+/// distance is a constant, and would be another law under this name.
+std::vector<FreeParameter> searched_parameters_of(const model::Model& model, const Candidate& candidate,
+                                                  int effect);
 
 Eigen::VectorXd values_of(const model::Model& model, const std::vector<FreeParameter>& parameters);
 

@@ -58,11 +58,12 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
   return near;
 }
 
-/// The refits that are left when those with a flaw are out: a law that cannot be true takes no share from one
-/// that can. Only those that would win a share or the name are looked at, until none of them has a flaw.
-std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Refit>& refits,
-                                        const Data& data, const TiedPlaces& places, const Policy& policy,
-                                        Choice& choice) {
+/// The refits that are left when those that cannot be named are out: a law that is refused takes no share
+/// from one that can be true. Only those that would win a share or the name are looked at, until none is
+/// refused.
+std::vector<std::size_t> without_refused(const Stage& stage, const std::vector<Refit>& refits,
+                                         const Data& data, const TiedPlaces& places, const Policy& policy,
+                                         Choice& choice) {
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
@@ -78,7 +79,7 @@ std::vector<std::size_t> without_flawed(const Stage& stage, const std::vector<Re
     for (const std::size_t i : asked) {
       if (!seen[i]) {
         seen[i] = true;
-        choice.objections[i] = flaw(refits[i], data, policy);
+        choice.objections[i] = refusal(stage, refits[i], data, policy);
         all_seen = all_seen && choice.objections[i].empty();
       }
     }
@@ -181,7 +182,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
   const std::vector<std::size_t> contenders = without_repeated_numbers(
-      stage, refits, without_flawed(stage, refits, data, places, policy, choice), data, policy, choice);
+      stage, refits, without_refused(stage, refits, data, places, policy, choice), data, policy, choice);
   if (contenders.empty()) {
     return choice;
   }
@@ -194,8 +195,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   }
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
-    choice.objections[i] =
-        objection(stage, refits[i], is_near ? choice.share : choice.shares[i], data, policy);
+    choice.objections[i] = objection(is_near ? choice.share : choice.shares[i], policy);
   }
   std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
     return complexity(refits[a]) < complexity(refits[b]);

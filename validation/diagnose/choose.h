@@ -16,10 +16,10 @@ struct Choice {
   std::vector<std::string> objections;  ///< by refit: why it is not named; empty when it could be
 };
 
-/// Of the refits (best first) without a flaw that are about as good as the best, the one with the fewest
-/// fitted parameters is named, of equally many the one with the fewest constants, if nothing speaks against
-/// it. Better in nearly all resamples counts for more among equally many parameters, and at the floor; above
-/// it a law that contains another is not preferred to it for an immaterial gain.
+/// Of the refits (best first) that are not refused (objection.h) and are about as good as the best, the one
+/// with the fewest fitted parameters is named, of equally many the one with the fewest constants, if nothing
+/// speaks against it. Better in nearly all resamples counts for more among equally many parameters, and at
+/// the floor; above it a law that contains another is not preferred to it for an immaterial gain.
 Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& data, const Policy& policy);
 
 }  // namespace plumbline::validation

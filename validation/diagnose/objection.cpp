@@ -142,14 +142,14 @@ bool is_level_below_rise(const FreeParameter& one, const Refit& refit) {
          std::none_of(effects.begin(), effects.end(), is_beside);
 }
 
-/// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive or
-/// the level of a dry friction; empty when there is none.
+/// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive, the
+/// level of a dry friction, or what the robot cannot be beyond (keep_physical); empty when there is none.
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {
     const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
     for (std::size_t p = 0; p < own.parameters.size(); ++p) {
       const FreeParameter& one = own.parameters[p];
-      if ((own.parameters.size() == 1 || one.scale == effects::Scale::reciprocal ||
+      if ((own.parameters.size() == 1 || one.physical || one.scale == effects::Scale::reciprocal ||
            is_level_below_rise(one, refit)) &&
           on_bound(one, own.theta[static_cast<Eigen::Index>(p)])) {
         return one.label;
@@ -157,6 +157,10 @@ std::string unphysical(const Refit& refit) {
     }
   }
   return "";
+}
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
 }
 
 /// What `check` says of a refit, if the model can be integrated close to its values.
@@ -186,21 +190,18 @@ std::string flaw(const Refit& refit, const Data& data, const Policy& policy) {
   });
 }
 
-std::string objection(const Stage& stage, const Refit& refit, double share, const Data& data,
-                      const Policy& policy) {
+std::string refusal(const Stage& stage, const Refit& refit, const Data& data, const Policy& policy) {
   const Scores& before = stage.estimate.predicted.scores;
   const Scores& after = refit.estimate.predicted.scores;
   const bool judged = data.has(Role::held_out);
   const double fall = judged ? 1.0 - after.held_out / before.held_out : 1.0 - after.train / before.train;
-  const auto percent = [](double value) {
-    return std::to_string(static_cast<int>(std::lround(100.0 * value))) + " %";
-  };
   if (fall < policy.material) {
     const std::string error = judged ? "held-out error" : "train error";
     return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
   }
-  if (share < policy.stable) {
-    return "unstable: chosen in only " + percent(share) + " of the resamples";
+  const std::string wrong = flaw(refit, data, policy);
+  if (!wrong.empty()) {
+    return wrong;
   }
   // Far above the floor every strength is a compromise with what else is missing.
   const bool is_far = !is_below(policy.far, refit.estimate, data);
@@ -213,6 +214,10 @@ std::string objection(const Stage& stage, const Refit& refit, double share, cons
     }
     return "";
   });
+}
+
+std::string objection(double share, const Policy& policy) {
+  return share < policy.stable ? "unstable: chosen in only " + percent(share) + " of the resamples" : "";
 }
 
 }  // namespace plumbline::validation

@@ -4,9 +4,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "validation/diagnose/candidates.h"
+#include "validation/diagnose/physical_limits.h"
 #include "validation/predict/foretell.h"
 
 namespace plumbline::validation {
@@ -77,38 +77,16 @@ double inertia_deviation(const model::Model& model, const model::Motor& motor) {
   return std::sqrt(square);
 }
 
-/// The least value at which the model stays one of a physical robot: a tenth of an inertia or of a mass is
-/// always there.
-double least_physical(const model::Model& model, const model::EffectUse& use) {
-  constexpr double kLeft = 0.1;
-  const std::string& law = use.law->declaration().name;
-  if (law == "rotor_inertia") {
-    const auto motor = std::find_if(model.motors.begin(), model.motors.end(),
-                                    [&](const model::Motor& one) { return one.name == use.at; });
-    if (motor != model.motors.end()) {
-      double inertia = motor->rotor_inertia.value;
-      for (const model::Inertia& one : model.inertias) {
-        inertia += one.at == motor->name ? one.value.value : 0.0;
-      }
-      return (kLeft - 1.0) * inertia;
-    }
-  }
-  if (law == "added_mass" && model.body_index(use.at) >= 0) {
-    return (kLeft - 1.0) * model.skeleton.bodies[static_cast<std::size_t>(model.body_index(use.at))].mass;
-  }
-  if (law == "torque_constant_error") {
-    return kLeft;
-  }
-  return -std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 model::Model with_stated_errors(const model::Model& model, std::size_t named) {
   std::vector<model::EffectUse> uses;
   const auto add = [&](const std::string& law, const std::string& at, double deviation,
                        const std::string& what) {
-    if (deviation > 0.0) {
+    const bool identified = std::any_of(model.effects.begin(), model.effects.end(), [&](const auto& use) {
+      return use.at == at && use.law->declaration().name == law;
+    });
+    if (deviation > 0.0 && !identified) {
       uses.push_back(open_number(law, at, deviation, "stated uncertainty of the " + what));
     }
   };
@@ -136,8 +114,8 @@ std::vector<FreeParameter> stated_parameters(const model::Model& model, double w
       if (quantity.uncertainty <= 0.0) {
         continue;
       }
-      parameter.lower = std::max({parameter.lower, quantity.value - width * quantity.uncertainty,
-                                  std::min(quantity.value, least_physical(model, use))});
+      keep_physical(model, use, parameter);
+      parameter.lower = std::max(parameter.lower, quantity.value - width * quantity.uncertainty);
       parameter.upper = std::min(parameter.upper, quantity.value + width * quantity.uncertainty);
       parameter.mean = quantity.value;
       parameter.deviation = quantity.uncertainty;

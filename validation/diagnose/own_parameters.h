@@ -12,7 +12,9 @@ namespace plumbline::validation {
 /// an uncertainty: added_mass, rotor_inertia and torque_constant_error, with that uncertainty. It moves as
 /// the model does, and what an honest change of these numbers can do is then a matter of these effects'
 /// values. Uncertainties of further inertias at a motor count with the rotor's (root of the sum of squares).
-/// The model's last `named` effects stay the last.
+/// Where the model has such an effect already the number was identified: that value and its uncertainty
+/// replace what was stated before, and nothing further is opened. The model's last `named` effects stay the
+/// last.
 model::Model with_stated_errors(const model::Model& model, std::size_t named = 0);
 
 /// The model's own free parameters: those of its effects that state an uncertainty, within `width` standard

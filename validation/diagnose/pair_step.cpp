@@ -1,5 +1,7 @@
 #include "validation/diagnose/pair_step.h"
 
+#include <algorithm>
+
 #include "validation/diagnose/accept.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/judged.h"
@@ -51,8 +53,10 @@ void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, cons
   const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];
   const Stage both = after(pair.refit);
   const Stage single = fitted_anew(without_effect(both, pair.refit.added.back()), data);
-  const bool needed = judged(both.estimate, data) < (1.0 - policy.material) * judged(single.estimate, data);
-  if (is_below(policy.finished, both.estimate, data) && needed) {
+  // Better than either half, and than what is named already: far above the floor a part of the answer.
+  const double enough = (1.0 - policy.material) *
+                        std::min(judged(single.estimate, data), judged(diagnosis.final_stage.estimate, data));
+  if (judged(both.estimate, data) < enough) {
     accept_pair(first, pairs, choice, single, data, diagnosis);
   }
 }

@@ -179,10 +179,8 @@ Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::Vector
 Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values) {
   Extended extended{fitted_model(stage), stage.parameters, {}};
   extended.model.effects.push_back(make_use(candidate, values));
-  const bool angular = stage.model.place_is_angular(candidate.place, candidate.at);
-  for (FreeParameter& parameter :
-       searched_parameters_of(candidate, extended.model.effects.back(),
-                              static_cast<int>(extended.model.effects.size()) - 1, angular)) {
+  for (FreeParameter& parameter : searched_parameters_of(
+           extended.model, candidate, static_cast<int>(extended.model.effects.size()) - 1)) {
     extended.parameters.push_back(std::move(parameter));
   }
   extended.theta = values_of(extended.model, extended.parameters);

@@ -113,9 +113,8 @@ Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(hypotheses[h].candidate)];
     model.effects.push_back(make_use(candidate, hypotheses[h].start));
-    const bool angular = model.place_is_angular(candidate.place, candidate.at);
-    for (FreeParameter& parameter : searched_parameters_of(
-             candidate, model.effects.back(), static_cast<int>(model.effects.size()) - 1, angular)) {
+    for (FreeParameter& parameter :
+         searched_parameters_of(model, candidate, static_cast<int>(model.effects.size()) - 1)) {
       own_[h].push_back(static_cast<Eigen::Index>(parameters.size()));
       parameters.push_back(std::move(parameter));
     }

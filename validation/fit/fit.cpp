@@ -190,9 +190,13 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   numbers.precision = known.held;
   Fit result;
   result.before = given.scores;
-  result.after = known.estimate.scores;
+  // As compare finds them of the fitted model: a search that has followed its parameters may stand at initial
+  // states that no one finds again.
+  const model::Model last_model = with_values(model, parameters, numbers.after);
+  PredictorPool afresh(last_model, data);
+  result.after = estimate_states(afresh).scores;
   result.before.test = test_error(model, data);
-  result.after.test = test_error(with_values(model, parameters, numbers.after), data);
+  result.after.test = test_error(last_model, data);
   result.parameters = judge(parameters, numbers, options);
   result.windows = static_cast<int>(data.windows_of(Role::train).size());
   result.iterations = near.iterations + last.iterations;

@@ -7,6 +7,7 @@
 
 #include "simulator/trace/error.h"
 #include "validation/diagnose/candidates.h"
+#include "validation/diagnose/physical_limits.h"
 #include "validation/fit/scales.h"
 
 namespace plumbline::validation {
@@ -48,6 +49,7 @@ std::vector<FreeParameter> free_parameters(const model::Model& model) {
     const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
     const std::string number = repetition(model, e);
     for (FreeParameter& parameter : free_parameters_of(use, static_cast<int>(e), {}, angular)) {
+      keep_physical(model, use, parameter);
       parameter.label.insert(parameter.label.find(':'), number);
       all.push_back(std::move(parameter));
     }

@@ -169,8 +169,8 @@ Eigen::VectorXd Predictor::spread_around(const Eigen::VectorXd& x) const {
   for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
     spread[i] = 1.0 + std::abs(x[i]);
   }
-  for (const int i : plant_.force_states()) {
-    spread[i] = 1e-9 * spread[i];  // not free: carried along the measured motion
+  for (const int i : plant_.carried_states()) {
+    spread[i] = 1e-9 * spread[i];  // not free: the past determines them
   }
   return spread;
 }

@@ -61,7 +61,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   out.Jp.setZero(out.r.size(), np);
   Sensitivity sensitivity(Eigen::MatrixXd::Identity(nx, nx + np));
   Eigen::MatrixXd& S = sensitivity.S();
-  const std::vector<int> carried = plant_.force_states();
+  const std::vector<int> carried = plant_.carried_states();
   if (!carried.empty()) {
     S.rightCols(np) = hidden_slopes(window, ids, steps);
   }
@@ -181,7 +181,7 @@ Linearisation Predictor::linearise_by_differences(const Window& window, const Ei
   const Eigen::Index nz = plant_.positions();
   out.Jx = Eigen::MatrixXd::Zero(out.r.size(), nx);
   out.Jp.resize(out.r.size(), static_cast<Eigen::Index>(parameters.size()));
-  const std::vector<int> carried = plant_.force_states();
+  const std::vector<int> carried = plant_.carried_states();
   Eigen::VectorXd moved = x0;
   for (Eigen::Index i = 0; i < nx; ++i) {
     if (std::find(carried.begin(), carried.end(), static_cast<int>(i)) != carried.end()) {

@@ -83,7 +83,7 @@ void Predictor::measure_motion() {
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
-  const std::vector<int> hidden = plant_.force_states();
+  const std::vector<int> hidden = plant_.carried_states();
   const bool too_short = trial_.samples() < sensing::DifferentiationOptions::acausal().window;
   if (hidden.empty() || too_short) {
     return;
@@ -91,16 +91,22 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   if (motion_.size() == 0) {
     measure_motion();
   }
-  for (const int i : hidden) {
-    x[i] = 0.0;
-  }
   const auto reach = static_cast<Eigen::Index>(std::lround(options_.history / trial_.period));
   Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
   for (const Stretch& stretch : trial_.stretches) {
     from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
   }
+  Eigen::VectorXd command(plant_.motors());
+  commands_->at(from, 0, command.data());
+  plant_.settle(command.data(), x);
+  const std::vector<double>& breaks = commands_->breaks();
   for (Eigen::Index k = from; k < window.first; ++k) {
-    plant_.carry_force_states(motion_.col(k).data(), motion_.col(k + 1).data(), trial_.period, x);
+    for (std::size_t b = 0; b < breaks.size(); ++b) {
+      commands_->at(k, b, command.data());
+      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
+                          (next - breaks[b]) * trial_.period, x);
+    }
   }
 }
 
@@ -109,7 +115,7 @@ void Predictor::carry_hidden(const Window& window, double* x) {
 Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                          const Eigen::VectorXd& steps) {
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(plant_.states(), steps.size());
-  const std::vector<int> owners = plant_.force_state_effects();
+  const std::vector<int> owners = plant_.carried_state_effects();
   const Eigen::VectorXd here = states_.col(0);
   Eigen::VectorXd there = here;
   for (std::size_t p = 0; p < ids.size(); ++p) {

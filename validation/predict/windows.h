@@ -74,6 +74,7 @@ struct FreeParameter {
   double mean = 0.0;                                           ///< what is known of it beforehand
   double deviation = std::numeric_limits<double>::infinity();  ///< and how well; infinite: not at all
   std::vector<model::ParameterId> also{};                      ///< parameters that always have the same value
+  bool physical = false;  ///< the bounds say what the robot can be: a value at one is none
 
   void set(model::Plant& plant, double value) const;
 };

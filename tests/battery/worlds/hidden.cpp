@@ -111,7 +111,7 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 15> kOthers{"torque_bias",
+constexpr std::array<const char*, 16> kOthers{"torque_bias",
                                               "torque_constant_error",
                                               "actuator_lag",
                                               "command_delay",
@@ -120,6 +120,7 @@ constexpr std::array<const char*, 15> kOthers{"torque_bias",
                                               "backlash",
                                               "added_mass",
                                               "com_shift",
+                                              "payload",
                                               "gravity_tilt",
                                               "encoder_offset",
                                               "encoder_scale",

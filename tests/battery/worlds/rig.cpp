@@ -132,6 +132,15 @@ bool change_body(const Hidden& e, Link& link) {
     link.along -= e["z"];
     return true;
   }
+  if (e.effect == "payload") {  // a point mass: about the pivot its m (x^2 + z^2) is added to the link's
+    const double pivot = link.about_pivot() + e["mass"] * (e["x"] * e["x"] + e["z"] * e["z"]);
+    const double whole = link.mass + e["mass"];
+    link.across = (link.mass * link.across + e["mass"] * e["x"]) / whole;
+    link.along = (link.mass * link.along - e["mass"] * e["z"]) / whole;
+    link.mass = whole;
+    link.central = pivot - whole * (link.along * link.along + link.across * link.across);
+    return true;
+  }
   return false;
 }
 

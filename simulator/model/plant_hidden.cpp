@@ -1,0 +1,122 @@
+// Hidden states: which the past determines, and what it makes of them.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulator/model/asked_torque.h"
+#include "simulator/model/plant.h"
+
+namespace plumbline::model {
+
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+namespace {
+
+/// One step of the exponential Euler method, each of `count` states s on its own, `rate_of(s, rate)` their
+/// rates.
+template <typename Values, typename RateOf>
+void step_states(const RateOf& rate_of, double h, int count, double* s) {
+  const Values before = Vector(s, count);
+  Values moved = before;
+  Values rate(count);
+  Values other(count);
+  rate_of(before.data(), rate.data());
+  for (int k = 0; k < count; ++k) {
+    const double step = 1e-6 * (1.0 + std::abs(before[k]));
+    moved[k] += step;
+    rate_of(moved.data(), other.data());
+    moved[k] = before[k];
+    const double reach = h * (other[k] - rate[k]) / step;
+    s[k] += h * rate[k] * (std::abs(reach) > 1e-8 ? std::expm1(reach) / reach : 1.0);
+  }
+}
+
+}  // namespace
+
+std::vector<int> Plant::carried_states() const {
+  std::vector<int> indices;
+  const auto add = [&](const effects::Law& law, int state) {
+    for (int k = 0; state >= 0 && k < law.state_count(); ++k) {
+      indices.push_back(state + k);
+    }
+  };
+  for (const ForceSlot& slot : forces_) {
+    add(*slot.law, slot.state);
+  }
+  for (const std::vector<ActuatorSlot>& chain : actuators_) {
+    for (const ActuatorSlot& slot : chain) {
+      add(*slot.law, slot.state);
+    }
+  }
+  return indices;
+}
+
+// What comes before a lag in a motor's chain is what the lag follows.
+std::vector<int> Plant::carried_state_effects() const {
+  std::vector<int> effects;
+  for (const ForceSlot& slot : forces_) {
+    if (slot.state >= 0) {
+      effects.push_back(slot.effect);
+    }
+  }
+  for (const std::vector<ActuatorSlot>& chain : actuators_) {
+    const auto last =
+        std::find_if(chain.rbegin(), chain.rend(), [](const auto& one) { return one.state >= 0; });
+    std::for_each(last, chain.rend(), [&](const ActuatorSlot& slot) { effects.push_back(slot.effect); });
+  }
+  return effects;
+}
+
+void Plant::carry_states(const double* from, const double* to, const double* command, double h,
+                         double* x) const {
+  for (const ForceSlot& slot : forces_) {
+    if (slot.state < 0 || !slot.active) {
+      continue;
+    }
+    const auto along = [&](const double* at) {
+      const Vector z(at, nz_);
+      const Vector w(at + nz_, nz_);
+      return std::make_pair(slot.line.offset + slot.line.reduced.dot(z), slot.line.reduced.dot(w));
+    };
+    const auto [q0, v0] = along(from);
+    const auto [q1, v1] = along(to);
+    const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), 0.0};
+    step_states<Few>(
+        [&](const double* s, double* rate) { slot.law->state_rate(middle, s, values(slot.effect), rate); }, h,
+        slot.law->state_count(), x + slot.state);
+  }
+  for (int m = 0; m < motors(); ++m) {
+    double torque = asked_torque(*this, m, command[m]);
+    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+      if (slot.state >= 0) {
+        step_states<Few>([&](const double* s,
+                             double* rate) { slot.law->state_rate(torque, s, values(slot.effect), rate); },
+                         h, slot.law->state_count(), x + slot.state);
+      }
+      if (slot.state >= 0 || slot.law->state_count() == 0) {
+        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+      }
+    }
+  }
+}
+
+void Plant::settle(const double* command, double* x) const {
+  for (const ForceSlot& slot : forces_) {
+    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
+      x[slot.state + k] = 0.0;
+    }
+  }
+  for (int m = 0; m < motors(); ++m) {
+    double torque = asked_torque(*this, m, command[m]);
+    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+      if (slot.state >= 0) {
+        slot.law->settle(torque, values(slot.effect), x + slot.state);
+      }
+      if (slot.state >= 0 || slot.law->state_count() == 0) {
+        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+      }
+    }
+  }
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,47 @@
+// The texts that `plumbline new-model` writes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+#include "validation/api/new_model_columns.h"
+#include "validation/trial/trial.h"
+
+namespace plumbline::api {
+
+/// A torque constant, and where it comes from.
+struct Gain {
+  double value = 1.0;  ///< N m/A or N/A
+  double share = 1.0;  ///< standard deviation, of the value
+  std::string why;     ///< what stands under `assumed`
+};
+
+/// A moving joint of the skeleton, and how the model calls what belongs to it.
+struct PlannedJoint {
+  const model::Joint* joint = nullptr;
+  JointColumns columns;
+  std::string coordinate, motor;
+  double small_inertia = 0.0;  ///< of a rotor where the file states none, kg m^2 or kg
+  Gain gain;
+};
+
+struct Plan {
+  const model::Skeleton* skeleton = nullptr;
+  std::string skeleton_path;                  ///< relative to the model
+  std::string command_unit;                   ///< "A" or "N m"
+  const validation::LogLook* look = nullptr;  ///< nullptr: no log
+  std::vector<PlannedJoint> joints;
+};
+
+/// Names for coordinates and motors that a model may give and no other has; inertias to begin with.
+std::vector<PlannedJoint> plan_joints(const model::Skeleton& skeleton);
+
+/// The text of model.yaml. Every value has its source or the reason of an assumption.
+std::string model_text(const Plan& plan);
+
+/// The text of a trial.yaml: `from` and `to` in s of the log's time; paths as they are to stand there.
+std::string trial_text(const Plan& plan, validation::Role role, double from, double to,
+                       const std::string& data, const std::string& model_file);
+
+}  // namespace plumbline::api
