@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "simulator/model/link_box.h"
 #include "tests/diagnose/bench.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/fit/free_parameters.h"
@@ -32,7 +33,7 @@ TEST(PhysicalLimits, ALinkIsWhereItsInertiaAndItsJointsAre) {
   joint.parent = -1;
   joint.X_CJ.translation() = Eigen::Vector3d(-0.25, 0.0, 0.0);
   skeleton.joints.push_back(joint);
-  const Eigen::AlignedBox3d box = link_box(skeleton, 0);
+  const Eigen::AlignedBox3d box = model::link_box(skeleton, 0);
   EXPECT_TRUE(box.min().isApprox(Eigen::Vector3d(-0.25, -0.05, -0.02), 1e-9)) << box.min().transpose();
   EXPECT_TRUE(box.max().isApprox(Eigen::Vector3d(0.4, 0.05, 0.02), 1e-9)) << box.max().transpose();
 }

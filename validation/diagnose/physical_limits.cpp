@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "simulator/model/link_box.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -12,12 +14,6 @@ struct Limits {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 };
-
-Eigen::Vector3d half_lengths(const model::Body& body) {
-  const Eigen::Vector3d moments = body.inertia.diagonal();
-  const Eigen::Array3d squares = 1.5 * (moments.sum() - 2.0 * moments.array()) / body.mass;
-  return squares.max(0.0).sqrt();
-}
 
 double longest_link(const model::Skeleton& skeleton) {
   double longest = 0.0;
@@ -66,25 +62,6 @@ Limits limits_of(const model::Model& model, const model::EffectUse& use, int par
 }
 
 }  // namespace
-
-Eigen::AlignedBox3d link_box(const model::Skeleton& skeleton, int body) {
-  const model::Body& link = skeleton.bodies[static_cast<std::size_t>(body)];
-  Eigen::AlignedBox3d box(link.com);
-  if (link.mass > 0.0) {
-    const Eigen::Vector3d half = half_lengths(link);
-    box.extend(link.com + half);
-    box.extend(link.com - half);
-  }
-  for (const model::Joint& joint : skeleton.joints) {
-    if (joint.child == body) {
-      box.extend(Eigen::Vector3d(joint.X_CJ.translation()));
-    }
-    if (joint.parent == body) {
-      box.extend(Eigen::Vector3d(joint.X_PJ.translation()));
-    }
-  }
-  return box;
-}
 
 void keep_physical(const model::Model& model, const model::EffectUse& use, FreeParameter& parameter) {
   const Limits limits = limits_of(model, use, parameter.id.parameter);

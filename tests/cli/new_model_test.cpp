@@ -1,0 +1,93 @@
+// `plumbline new-model`: from a skeleton and a log to a model and trials that the other commands take.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "tests/cli/robot_folder.h"
+
+namespace plumbline::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class NewModel : public RobotFolder {
+ protected:
+  void SetUp() override {
+    RobotFolder::SetUp();
+    write(
+        "arm.urdf",
+        "<robot name=\"arm\"><link name=\"base\"/>\n"
+        "<link name=\"bar\"><inertial><origin xyz=\"0 0 -0.25\"/><mass value=\"2\"/>\n"
+        "<inertia ixx=\"0.05\" iyy=\"0.05\" izz=\"0.001\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n"
+        "<joint name=\"swing\" type=\"revolute\"><parent link=\"base\"/><child link=\"bar\"/>\n"
+        "<origin xyz=\"0 0 0\"/><axis xyz=\"0 1 0\"/><limit lower=\"-3\" upper=\"3\" effort=\"9\" "
+        "velocity=\"9\"/></joint></robot>\n");
+    write("log.csv", log("i_swing [A]"));
+  }
+
+  /// A swing of 0.4 rad at 0.8 Hz, held against gravity and inertia of the bar by a motor of kTorqueConstant.
+  static std::string log(const std::string& command) {
+    std::ostringstream text;
+    text.precision(10);
+    text << "t [s],q_swing [rad]," << command << ",temperature [1]\n";
+    for (int i = 0; i < 1000; ++i) {
+      const double t = 0.005 * i;
+      const double rate = 2.0 * 3.14159265358979 * 0.8;
+      const double q = 0.4 * std::sin(rate * t);
+      const double force = (0.05 + 2.0 * 0.25 * 0.25) * -rate * rate * q + 2.0 * 9.80665 * 0.25 * std::sin(q);
+      text << t << ',' << q << ',' << force / kTorqueConstant << ",20\n";
+    }
+    return text.str();
+  }
+
+  static constexpr double kTorqueConstant = 4.0;  // N m/A
+};
+
+TEST_F(NewModel, FindsColumnsUnitsAndTheTorqueConstant) {
+  succeed({"new-model", "arm.urdf", "--from", "log.csv", "--out", "model.yaml", "--json", "made.json"});
+  const json joint = read_json("made.json")["joints"].at(0);
+  EXPECT_EQ(joint["position"], "q_swing");
+  EXPECT_EQ(joint["command"], "i_swing");
+  EXPECT_NEAR(joint["torque_constant"].get<double>(), kTorqueConstant, 0.03 * kTorqueConstant);
+}
+
+TEST_F(NewModel, IsReadByTheOtherCommands) {
+  succeed({"new-model", "arm.urdf", "--from", "log.csv", "--out", "model.yaml"});
+  succeed({"check", "model.yaml"});
+  succeed({"compare", "log_train", "log_held_out", "--json", "compared.json"});
+  EXPECT_GT(read_json("compared.json")["held_out"].get<double>(), 0.0);
+}
+
+TEST_F(NewModel, NeedsNoLog) {
+  succeed({"new-model", "arm.urdf", "--out", "model.yaml"});
+  EXPECT_THAT(read("model.yaml"), HasSubstr("command_unit: N m"));
+  succeed({"check", "model.yaml"});
+}
+
+TEST_F(NewModel, SaysWhichColumnBelongsToNoJoint) {
+  const Outcome made = succeed({"new-model", "arm.urdf", "--from", "log.csv", "--out", "model.yaml"});
+  EXPECT_THAT(made.out, HasSubstr("Column temperature: belongs to no joint"));
+}
+
+TEST_F(NewModel, OverwritesNothingAndLeavesNothingBehind) {
+  write("model.yaml", "mine\n");
+  const auto before = snapshot();
+  const Outcome refused = plumbline({"new-model", "arm.urdf", "--from", "log.csv", "--out", "model.yaml"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("model.yaml"));
+  EXPECT_TRUE(changed_since(before).empty());
+}
+
+TEST_F(NewModel, RefusesALogWithoutAColumnOfAJoint) {
+  write("other.csv", "t [s],temperature [1]\n0,20\n0.01,20\n0.02,20\n");
+  const auto before = snapshot();
+  const Outcome refused = plumbline({"new-model", "arm.urdf", "--from", "other.csv", "--out", "model.yaml"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("other.csv"));
+  EXPECT_TRUE(changed_since(before).empty());
+}
+
+}  // namespace
+}  // namespace plumbline::test
