@@ -44,14 +44,43 @@ void add_up(const effects::Values& values, const effects::Values& deviations, mo
   deviation = std::isfinite(deviation) ? std::hypot(deviation, deviations.front()) : deviations.front();
 }
 
+/// What the torques name comes first. Where the error is still so large that predictions say little, nothing
+/// more is named.
+Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effects::Catalogue& catalogue,
+                    const validation::Policy& options, const validation::Progress& progress) {
+  if (!torques.stage || torques.stage->named.empty()) {
+    return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
+  }
+  Diagnosis diagnosis = diagnosis_of(*torques.stage, loaded.model, *loaded.data, options, progress);
+  if (diagnosis.accepted.empty()) {
+    return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
+  }
+  if (diagnosis.ladder.back().train() <= options.hopeless) {
+    const model::Model model = identified_model(*torques.stage, diagnosis.accepted.size());
+    join(validation::diagnose(model, catalogue, *loaded.data, options, progress), *loaded.data, options,
+         diagnosis);
+  }
+  return diagnosis;
+}
+
 }  // namespace
 
 Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
                 const validation::Progress& progress) {
   Answer answer;
-  answer.diagnosis = validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
+  try {
+    const FromTorques torques = ask_torques(loaded.model, catalogue, *loaded.data, options, progress);
+    answer.standard = torques.standard;
+    answer.diagnosis = diagnosed(torques, loaded, catalogue, options, progress);
+    if (torques.stage) {
+      answer.torque_cutoff = torques.stage->cutoff;
+      answer.open = torques.stage->open;
+    }
+  } catch (const validation::Stopped&) {
+    answer.diagnosis.interrupted = true;
+  }
   const Diagnosis& diagnosis = answer.diagnosis;
-  if (!diagnosis.interrupted &&
+  if (!diagnosis.interrupted && !diagnosis.ladder.empty() &&
       (diagnosis.unexplained_share > kLittle || diagnosis.verdict == Verdict::unexplained)) {
     answer.left = validation::unexplained_forces(diagnosis.final_stage, *loaded.data);
   }

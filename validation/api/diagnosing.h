@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/api/from_torques.h"
 #include "validation/api/loading.h"
 #include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/unexplained.h"
@@ -14,6 +15,9 @@ namespace plumbline::api {
 struct Answer {
   validation::Diagnosis diagnosis;
   std::vector<validation::UnexplainedForce> left;  ///< empty when little is left or the work was stopped
+  std::optional<StandardRung> standard;            ///< empty: at the floor, or the torques cannot be asked
+  std::vector<validation::TorqueShare> open;       ///< what the torques ask for and cannot tell apart
+  double torque_cutoff = 0.0;  ///< Hz: below which torques were compared; 0: they were not
 };
 
 Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,

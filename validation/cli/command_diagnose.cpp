@@ -180,6 +180,35 @@ void print(const Diagnosis& diagnosis) {
   print_pairs(diagnosis.pairs);
 }
 
+/// What ordinary identification makes of the same trials, and what the torques alone could tell.
+void print_torques(const api::Answer& answer) {
+  if (answer.standard) {
+    fmt::print(
+        "\nStandard identification (masses, centres of mass, inertias, gains, friction and offsets by least "
+        "squares of the\ntorques): train {:.3f}, held-out {:.3f}; {} of {} values at a limit. `plumbline fit "
+        "--standard` writes it.\n",
+        answer.standard->scores.train, answer.standard->scores.held_out, answer.standard->at_limits,
+        answer.standard->values);
+  }
+  if (answer.torque_cutoff > 0.0) {
+    fmt::print(
+        "\nFar from the measurements candidates are held against the torques that the motion needs, below "
+        "{:.3g} Hz.\n",
+        answer.torque_cutoff);
+  }
+  constexpr double kShown = 0.05;
+  std::string names;
+  for (const validation::TorqueShare& one : answer.open) {
+    if (one.share >= kShown) {
+      names += fmt::format("{}{} at {} {:.0f} %", names.empty() ? "" : ", ", one.effect, one.at,
+                           100.0 * one.share);
+    }
+  }
+  if (!names.empty()) {
+    fmt::print("What they ask for beyond what is named, by share of the resamples: {}.\n", names);
+  }
+}
+
 /// Long work then keeps its results in the file.
 void keep_results(const Loaded& loaded, const std::string& file, const std::vector<std::string>& written) {
   if (file.empty()) {
@@ -233,6 +262,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     const Diagnosis& diagnosis = answer.diagnosis;
     write_json(api::to_json(answer), options->inputs.json);
     print(diagnosis);
+    print_torques(answer);
     print_unexplained(answer.left);
     if (loaded.data->kept && !loaded.data->kept->is_written()) {
       fmt::print(stderr, "{}: results could not be written any more; those in it stay\n", options->resume);

@@ -11,6 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/recipe_report.h"
+#include "validation/standard/result.h"
 
 namespace plumbline::cli {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 using validation::Doubt;
 using validation::Fit;
 using validation::FittedParameter;
+using validation::FreeValue;
+using validation::StandardFit;
 
 struct Options {
   Inputs inputs;
@@ -26,6 +29,8 @@ struct Options {
   validation::FitOptions fit;
   std::string recipe;
   std::optional<std::uint64_t> seed;
+  bool standard = false;
+  validation::StandardOptions cutoffs;
 };
 
 nlohmann::json json_of(const Fit& fit, const Loaded& loaded, const Options& options) {
@@ -127,6 +132,81 @@ void run(const Options& options) {
   print(fit, loaded, options);
 }
 
+std::string limits_text(const FreeValue& value) {
+  if (!value.seen) {
+    return "as stated: these torques do not depend on it";
+  }
+  return value.at_limit ? fmt::format("at its limit, {:.4g}", value.value) : "";
+}
+
+void print_values(const StandardFit& fit) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FreeValue& value : fit.free.values) {
+    rows.push_back({value.label, value.unit, fmt::format("{:.4g} +- {:.2g}", value.stated, value.spread),
+                    fmt::format("{:.4g} +- {:.2g}", value.value, value.deviation), limits_text(value)});
+  }
+  print_table({"value", "unit", "stated", "identified", ""}, rows);
+  fmt::print(
+      "\n{} values; {} at a limit, {} as stated because nothing depends on them. Deviations take what is "
+      "left of "
+      "the torques for noise.\n",
+      fit.free.values.size(), fit.at_limits(), fit.unseen());
+}
+
+void print_torques(const StandardFit& fit) {
+  std::vector<std::vector<std::string>> rows;
+  for (const validation::TorqueError& torque : fit.torques) {
+    const auto share = [&](double rms) {
+      return fmt::format("{:.3g} {} ({:.1f} %)", rms, torque.unit, 100.0 * rms / torque.recorded);
+    };
+    rows.push_back({torque.motor, fmt::format("{:.3g} {}", torque.recorded, torque.unit),
+                    share(torque.before), share(torque.after)});
+  }
+  fmt::print("\nTorque that the motion needs less the recorded one, below {:g} Hz, {} samples, rms:\n\n",
+             fit.cutoff, fit.samples);
+  print_table({"motor", "recorded", "before", "after"}, rows);
+}
+
+void print(const StandardFit& fit, const Loaded& loaded, const std::string& out) {
+  print_values(fit);
+  print_torques(fit);
+  fmt::print("\nError in units of the floor: train {:.3f} before, {:.3f} after", fit.before.train,
+             fit.after.train);
+  if (loaded.data->has(validation::Role::held_out)) {
+    fmt::print("; held-out {:.3f} before, {:.3f} after\n", fit.before.held_out, fit.after.held_out);
+  } else {
+    fmt::print("; no held-out trial\n");
+  }
+  if (fit.after.test > 0.0) {
+    fmt::print("On the trials of role test: {:.3f} before, {:.3f} after\n", fit.before.test, fit.after.test);
+  }
+  if (!out.empty()) {
+    fmt::print("Model with the new values: {}\n", out);
+  }
+}
+
+/// Everything that the regressor of rigid bodies and motors holds, at once.
+void run_standard(const Options& options) {
+  check_writable(options.out);
+  const Loaded loaded = load(options.inputs);
+  check_not_an_input(options.out, loaded.model.lineage);
+  validation::StandardFit fit;
+  {
+    ProgressLine progress;
+    fit = validation::standard_fit(loaded.model, *loaded.data, options.cutoffs, progress.callback());
+  }
+  if (!options.out.empty()) {
+    validation::save(fit, *loaded.data, options.out);
+  }
+  nlohmann::json json = validation::to_json(fit, *loaded.data);
+  json["trials"] = options.inputs.trials;
+  if (!options.out.empty()) {
+    json["saved"] = options.out;
+  }
+  write_json(json, options.inputs.json);
+  print(fit, loaded, options.out);
+}
+
 /// A whole identification sequence; status 1 when a target was missed.
 void run_recipe(const Options& options, Outcome& outcome) {
   check_writable(options.inputs.json);
@@ -146,8 +226,22 @@ void run_recipe(const Options& options, Outcome& outcome) {
   outcome.status = targets_met(recipe, result) ? 0 : 1;
 }
 
-/// Either trials and what to free, or a recipe.
+/// Trials and what to free, or trials and --standard, or a recipe.
 void check_usage(const CLI::App& command, const Options& options) {
+  if (options.standard) {
+    for (const char* other : {"--free", "--recipe", "--seed", "--iterations"}) {
+      if (command.count(other) > 0) {
+        throw CLI::ExcludesError("--standard", other);
+      }
+    }
+    if (command.count("trial") == 0) {
+      throw CLI::RequiredError("trial");
+    }
+    return;
+  }
+  if (command.count("--cutoff") > 0) {
+    throw CLI::RequiresError("--cutoff", "--standard");
+  }
   if (options.recipe.empty()) {
     for (const char* needed : {"trial", "--free"}) {
       if (command.count(needed) == 0) {
@@ -179,6 +273,16 @@ void add_fit(CLI::App& app, Outcome& outcome) {
           "--free", options->free,
           "parameters to fit: a pattern (* and ?) over EFFECT@PLACE:PARAMETER; may be given several times")
       ->type_name("PATTERN");
+  command->add_flag(
+      "--standard", options->standard,
+      "in place of --free: masses, centres of mass, rotor inertias, torque constants, friction and "
+      "offsets at once, by least squares on the torques");
+  command
+      ->add_option(
+          "--cutoff", options->cutoffs.force_cutoff,
+          "of --standard: frequency below which torques are compared, Hz; left out, the one whose values "
+          "predict the train windows best")
+      ->check(CLI::PositiveNumber);
   command->add_option("--recipe", options->recipe, "carry out an identification sequence in place of one fit")
       ->type_name("FILE");
   command->add_option("--seed", options->seed, "of the true values and the noise of a recipe's twins");
@@ -189,10 +293,17 @@ void add_fit(CLI::App& app, Outcome& outcome) {
       ->check(CLI::PositiveNumber);
   command->footer(
       "Example:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml\n"
+      "  plumbline fit demo/mimo --standard -o identified.yaml\n"
       "  plumbline fit --recipe validation/recipes/mabel --seed 7");
   command->callback([options, command, &outcome] {
     check_usage(*command, *options);
-    options->recipe.empty() ? run(*options) : run_recipe(*options, outcome);
+    if (options->standard) {
+      run_standard(*options);
+    } else if (options->recipe.empty()) {
+      run(*options);
+    } else {
+      run_recipe(*options, outcome);
+    }
   });
 }
 

@@ -320,6 +320,23 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
   return candidates;
 }
 
+std::vector<effects::Values> starts_of(const model::Model& model, const Candidate& candidate) {
+  std::vector<effects::Values> starts = candidate.law->starts(candidate.scales);
+  const auto* law = dynamic_cast<const effects::StructureLaw*>(candidate.law.get());
+  if (law == nullptr || candidate.place != Place::body) {
+    return starts;
+  }
+  const Eigen::Vector3d& com =
+      model.skeleton.bodies[static_cast<std::size_t>(model.body_index(candidate.at))].com;
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  for (effects::Values& start : starts) {
+    for (std::size_t i = 0; i < kAxes.size() && law->change(start.data()).payload > 0.0; ++i) {
+      start[static_cast<std::size_t>(law->parameter_index(kAxes.at(i)))] = com[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return starts;
+}
+
 model::EffectUse make_use(const Candidate& candidate, const effects::Values& values) {
   model::EffectUse use;
   use.law = candidate.law;

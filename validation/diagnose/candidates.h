@@ -27,6 +27,10 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
                                        const std::vector<FreeParameter>& parameters,
                                        const Estimate& estimate);
 
+/// Values from which the candidate is tried: those of its law, but that what hangs on a body begins where the
+/// body's own mass is.
+std::vector<effects::Values> starts_of(const model::Model& model, const Candidate& candidate);
+
 /// A use of the candidate's law with these values.
 model::EffectUse make_use(const Candidate& candidate, const effects::Values& values);
 

@@ -197,7 +197,7 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   std::vector<Hypothesis> tangents;
   std::vector<Hypothesis> starts;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    for (const effects::Values& start : candidates[c].law->starts(candidates[c].scales)) {
+    for (const effects::Values& start : starts_of(stage.model, candidates[c])) {
       Hypothesis hypothesis;
       hypothesis.candidate = static_cast<int>(c);
       hypothesis.start = start;

@@ -1,0 +1,180 @@
+#include "validation/api/from_torques.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/trace/error.h"
+#include "validation/compare/compare.h"
+#include "validation/diagnose/finish.h"
+#include "validation/diagnose/rescore.h"
+#include "validation/predict/lost_windows.h"
+
+namespace plumbline::api {
+namespace {
+
+using validation::Data;
+using validation::Diagnosis;
+using validation::Finding;
+using validation::FreeModel;
+using validation::FreeParameter;
+using validation::FreeValue;
+using validation::Policy;
+using validation::Progress;
+using validation::Stage;
+using validation::TorqueFinding;
+using validation::TorqueStage;
+
+FreeParameter parameter_of(const FreeValue& value) {
+  FreeParameter parameter;
+  parameter.id = value.id;
+  parameter.label = value.label;
+  parameter.unit = value.unit;
+  parameter.lower = value.lower;
+  parameter.upper = value.upper;
+  parameter.typical = value.spread;
+  parameter.physical = value.physical;
+  if (value.known) {
+    parameter.mean = value.stated;
+    parameter.deviation = value.spread;
+  }
+  return parameter;
+}
+
+Stage stage_of(const FreeModel& free, const Data& data) {
+  Stage stage;
+  stage.model = free.model;
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(free.values.size()));
+  for (std::size_t i = 0; i < free.values.size(); ++i) {
+    stage.parameters.push_back(parameter_of(free.values[i]));
+    theta[static_cast<Eigen::Index>(i)] = free.values[i].value;
+  }
+  validation::PredictorPool pool(validation::identified(free), data);
+  stage.estimate = validation::estimate_states(pool);
+  stage.estimate.theta = theta;
+  stage.estimate.predicted.theta = theta;
+  return stage;
+}
+
+Finding finding_of(const TorqueFinding& named, int rung) {
+  Finding finding;
+  finding.effect = named.effect;
+  finding.at = named.at;
+  finding.rung = rung;
+  finding.selected_share = named.share;
+  const model::EffectUse& use = named.free.model.effects.back();
+  finding.equation = use.law->declaration().equation;
+  const int effect = static_cast<int>(named.free.model.effects.size()) - 1;
+  for (const FreeValue& value : named.free.values) {
+    if (value.id.effect == effect) {
+      const auto index = static_cast<std::size_t>(value.id.parameter);
+      finding.parameters.push_back(
+          {use.law->declaration().parameters[index].name, value.unit, value.value, value.deviation, false});
+    }
+  }
+  for (const validation::TorqueShare& rival : named.rivals) {
+    finding.rivals.push_back({rival, 1.0, false});
+  }
+  return finding;
+}
+
+void add_rung(const std::string& name, const Stage& stage, Diagnosis& diagnosis) {
+  validation::Rung rung;
+  rung.name = name;
+  rung.stage = stage;
+  diagnosis.ladder.push_back(rung);
+  diagnosis.final_stage = stage;
+}
+
+/// Prediction decides: what the torques name ends with the first effect with which the windows' error that
+/// counts does not fall by Policy::material.
+void keep_what_predicts(const Data& data, const Policy& policy, Diagnosis& diagnosis) {
+  const bool unseen = data.has(validation::Role::held_out);
+  const auto error = [&](std::size_t rung) {
+    return unseen ? diagnosis.ladder[rung].held_out() : diagnosis.ladder[rung].train();
+  };
+  std::size_t kept = 0;
+  while (kept < diagnosis.accepted.size() &&
+         error(diagnosis.bare_rungs + kept) <
+             (1.0 - policy.material) * error(diagnosis.bare_rungs + kept - 1)) {
+    ++kept;
+  }
+  diagnosis.accepted.resize(kept);
+  diagnosis.ladder.resize(diagnosis.bare_rungs + kept);
+  diagnosis.final_stage = diagnosis.ladder.back().stage;
+}
+
+}  // namespace
+
+FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                        const Policy& policy, const Progress& progress) {
+  FromTorques answer;
+  const double given = validation::compare(model, data.thinned(policy.windows)).scores.train;
+  if (given <= policy.finished) {
+    return answer;
+  }
+  try {
+    const validation::StandardFit fit = validation::standard_fit(model, data, {}, progress);
+    answer.standard = StandardRung{fit.after, static_cast<int>(fit.free.values.size()), fit.at_limits()};
+    if (given > policy.hopeless) {
+      answer.stage = validation::torque_stage(model, catalogue, data, fit.cutoff, policy, progress);
+    }
+  } catch (const InputError&) {
+    return answer;  // hidden states, feet on the ground, or positions that no sensor shows
+  }
+  return answer;
+}
+
+Diagnosis diagnosis_of(const TorqueStage& stage, const model::Model& model, const Data& data,
+                       const Policy& policy, const Progress& progress) {
+  Diagnosis diagnosis;
+  const Data kept = validation::without_lost(model, data, diagnosis.lost);
+  progress("predictions of what the torques name", 0.9);
+  validation::PredictorPool pool(model, kept);
+  add_rung("as given", {model, {}, validation::estimate_states(pool)}, diagnosis);
+  if (!stage.own.values.empty()) {
+    add_rung("model parameters fitted", stage_of(stage.own, kept), diagnosis);
+  }
+  diagnosis.bare_rungs = diagnosis.ladder.size();
+  for (const TorqueFinding& named : stage.named) {
+    diagnosis.accepted.push_back(finding_of(named, static_cast<int>(diagnosis.ladder.size())));
+    add_rung("+ " + named.label(), stage_of(named.free, kept), diagnosis);
+  }
+  diagnosis.windows = kept.windows.size();
+  validation::compare_rungs(kept, progress, diagnosis);
+  keep_what_predicts(kept, policy, diagnosis);
+  validation::conclude(kept, policy, diagnosis);
+  diagnosis.test_before = validation::test_error(model, data);
+  diagnosis.test_after = validation::test_error(validation::fitted_model(diagnosis.final_stage), data);
+  return diagnosis;
+}
+
+model::Model identified_model(const TorqueStage& stage, std::size_t named) {
+  const FreeModel& free = named == 0 ? stage.own : stage.named[named - 1].free;
+  model::Model model = validation::identified(free);
+  for (const FreeValue& value : free.values) {
+    model.effects[static_cast<std::size_t>(value.id.effect)]
+        .values[static_cast<std::size_t>(value.id.parameter)]
+        .uncertainty = value.deviation;
+  }
+  return model;
+}
+
+void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& first) {
+  if (further.ladder.empty()) {
+    first.interrupted = further.interrupted;
+    return;
+  }
+  const auto before = static_cast<int>(first.ladder.size()) - 1;  // "as given" there is the last rung here
+  for (Finding& finding : further.accepted) {
+    finding.rung += finding.rung >= 0 ? before : 0;
+  }
+  further.accepted.insert(further.accepted.begin(), first.accepted.begin(), first.accepted.end());
+  further.ladder.erase(further.ladder.begin());
+  further.ladder.insert(further.ladder.begin(), first.ladder.begin(), first.ladder.end());
+  further.bare_rungs = first.bare_rungs;
+  further.test_before = first.test_before;
+  first = std::move(further);
+  validation::conclude(data, policy, first);
+}
+
+}  // namespace plumbline::api
