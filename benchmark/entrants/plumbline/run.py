@@ -1,0 +1,244 @@
+#!/usr/bin/env python3
+"""Plumbline as an entrant: writes model.yaml and trials of a case, runs `diagnose --json`, and translates the answer.
+
+Usage: run.py CASE_FOLDER OUT_FOLDER [--program PATH] [--keep]
+"""
+
+import argparse
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from common import Case, read_csv, write_answer, write_prediction  # noqa: E402
+
+KINDS = {
+    "viscous": "viscous_friction", "coulomb": "coulomb_friction", "stribeck": "stribeck_friction", "lugre": "stribeck_friction",
+    "viscous_directional": "asymmetric_friction", "coulomb_directional": "asymmetric_friction", "load_friction": "load_friction",
+    "gear_friction": "load_friction", "quadratic": "quadratic_drag", "backlash": "backlash", "cable_stretch": "elastic_drive",
+    "spring": "spring", "preload": "constant_force", "torque_bias": "constant_force", "hardening": "nonlinear_spring",
+    "unilateral_spring": "nonlinear_spring", "hard_stop": "hard_stop", "cogging": "torque_ripple",
+    "torque_constant_error": "torque_gain", "actuator_lag": "actuator_lag", "command_delay": "actuator_delay",
+    "rotor_inertia": "rotor_inertia", "added_mass": "payload", "payload": "payload", "com_shift": "center_of_mass",
+    "gravity_tilt": "gravity_tilt", "encoder_offset": "sensor_offset", "encoder_scale": "sensor_gain",
+    "switch_lateness": "switch_delay", "ground_stiffness_error": "ground_stiffness", "ground_damping_error": "ground_damping",
+    "ground_height_error": "ground_height",
+}
+# (kind, parameter of the program) -> (name of the benchmark, power of the gear's ratio at a motor, sign)
+VALUES = {
+    ("coulomb_friction", "level"): ("level", 1, 1), ("viscous_friction", "damping"): ("damping", 2, 1),
+    ("load_friction", "coefficient"): ("coefficient", 0, 1), ("quadratic_drag", "drag"): ("drag", 3, 1),
+    ("constant_force", "bias"): ("force", 1, 1), ("constant_force", "preload"): ("force", 1, -1),
+    ("torque_gain", "scale"): ("gain", 0, 1), ("actuator_lag", "time_constant"): ("time_constant", 0, 1),
+    ("actuator_delay", "delay"): ("delay", 0, 1), ("rotor_inertia", "inertia"): ("inertia", 2, 1),
+    ("payload", "mass"): ("mass", 0, 1), ("spring", "stiffness"): ("stiffness", 0, 1),
+    ("elastic_drive", "stiffness"): ("stiffness", 0, 1), ("backlash", "gap"): ("gap", 0, 1),
+    ("ground_stiffness", "scale"): ("scale", 0, 1), ("ground_damping", "scale"): ("scale", 0, 1),
+    ("ground_height", "height"): ("height", 0, 1),
+}
+WHY = 'assumed: "stated in case.json"'
+
+
+def number(value, unit, deviation=0.0):
+    uncertain = f", uncertainty: {deviation}" if deviation else ""
+    return f'{{value: {value}, unit: "{unit}"{uncertain}, {WHY}}}'
+
+
+def model_text(case):
+    about, joints = case.about, [r for r in case.about["recordings"][0]["start"]]
+    lines = ["plumbline: model/1", f"robot: {about['title']}", "skeleton: robot.urdf",
+             f"gravity: {number(about['gravity']['value'], 'm/s^2')}", "masses:"]
+    for link, mass in about["masses"].items():
+        share = 100.0 * mass["standard_deviation"] / mass["value"]
+        lines.append(f"  {link}: {{uncertainty: {share:.6g} %, {WHY}}}")
+    lines += ["coordinates:"] + [f"  {joint}: {{of: {{{joint}: 1}}}}" for joint in joints] + ["motors:"]
+    for joint, drive in case.drives.items():
+        inertia, gain = drive["rotor_inertia"], drive["torque_gain"]
+        lines += [f"  {joint}_motor:", "    command_unit: N m",
+                  f"    rotor_inertia: {number(inertia['value'], 'kg m^2', inertia['standard_deviation'])}",
+                  f"    torque_constant: {number(gain['value'], '1', gain['standard_deviation'])}"]
+    lines.append("ratios:")
+    for joint, drive in case.drives.items():
+        lines.append(f"  {joint}: {{motor: {joint}_motor, ratio: {number(drive['ratio']['value'], drive['ratio']['unit'])}}}")
+    lines += feet_lines(case) + effect_lines(case) + sensor_lines(case)
+    return "\n".join(lines) + "\n"
+
+
+def feet_lines(case):
+    feet = case.about["feet"]
+    return ["feet:"] * bool(feet) + [f"  {f['name']}: {{link: {f['link']}, value: {f['point']}, unit: m, {WHY}}}" for f in feet]
+
+
+def effect_lines(case):
+    lines = ["effects:"]
+    for joint, drive in case.drives.items():
+        damping, square = drive["joint_damping"], drive["ratio"]["value"] ** 2
+        value = number(damping["value"] / square, "N m s/rad", damping["standard_deviation"] / square)
+        lines.append(f"  - {{effect: viscous, at: {joint}_motor, values: {{damping: {value}}}}}")
+    for spring in case.about["springs"]:
+        stiffness, rest = spring["stiffness"], spring["rest"]
+        lines.append(f"  - {{effect: spring, at: {spring['joint']}, values: {{"
+                     f"stiffness: {number(stiffness['value'], stiffness['unit'], stiffness['standard_deviation'])}, "
+                     f"rest: {number(rest['value'], rest['unit'])}}}}}")
+    for foot in case.about["feet"]:
+        ground = foot["ground"]
+        lines.append(f"  - {{effect: ground_normal, at: {foot['name']}, values: {{"
+                     f"stiffness: {number(ground['stiffness']['value'], 'N')}, damping: {number(ground['damping']['value'], 'N s/m')}, "
+                     f"exponent: {number(ground['exponent'], '1')}}}}}")
+    return lines
+
+
+def sensor_lines(case):
+    lines = ["sensors:"]
+    for name, about in case.columns.items():
+        if about["is"] == "contact switch":
+            lines.append(f"  {name}: {{contact: {about['foot']}, {WHY}}}")
+        elif about["is"] != "command":
+            what = about["joint"] + ("_motor" if about["is"] == "motor position" else "")
+            lines.append(f"  {name}: {{measures: {what}, resolution: {number(about['resolution'], about['unit'])}, "
+                         f"noise: {number(about['noise'], about['unit'])}, {WHY}}}")
+    return lines
+
+
+def trial_text(case, data, role):
+    lines = ["plumbline: trial/1", f"title: {os.path.basename(data)}", "model: ../model.yaml", f"role: {role}", f"data: {data}",
+             "time: {column: t, unit: s}", "commands:"]
+    lines += [f"  {about['joint']}_motor: {{column: {name}, unit: N m}}" for name, about in case.columns.items()
+              if about["is"] == "command"]
+    lines.append("measured:")
+    lines += [f"  {name}: {{column: {name}, unit: \"{about['unit']}\"}}" for name, about in case.columns.items()
+              if about["is"] != "command"]
+    return "\n".join(lines) + "\n"
+
+
+def start_row(case, start):
+    """What the sensors read of a robot that is held at its start, with its feet in the air."""
+    row = {name: 0.0 for name, about in case.columns.items() if about["is"] == "contact switch"}
+    return {**row, **{name: start[about["joint"]] * (case.drives[about["joint"]]["ratio"]["value"]
+                                           if about["is"] == "motor position" else 1.0)
+            for name, about in case.columns.items() if name in case.positions()}}
+
+
+def write_inputs(case, work):
+    """Model and trials; returns the trials to diagnose and those to predict, {file: folder}."""
+    shutil.copy(os.path.join(case.folder, "robot.urdf"), work)
+    with open(os.path.join(work, "model.yaml"), "w", encoding="utf-8") as file:
+        file.write(model_text(case))
+    given, asked = [], {}
+    for entry in case.about["recordings"]:
+        folder = os.path.join(work, entry["file"].removesuffix(".csv"))
+        os.makedirs(folder, exist_ok=True)
+        test = entry["role"] == "test"
+        with open(os.path.join(folder, "trial.yaml"), "w", encoding="utf-8") as file:
+            file.write(trial_text(case, entry["file"], "train" if entry["role"] == "train" else "held-out"))
+        if test:  # what is to be predicted is not there: the program begins where these constants say
+            table = read_csv(os.path.join(case.folder, entry["file"]))
+            held = {n: np.full(len(table["t"]), x) for n, x in start_row(case, entry["start"]).items()}
+            units = {n: case.columns[n] for n in case.columns}
+            body = {n: table[n] for n in table if n != "t"}
+            write_prediction(folder, entry["file"], table["t"], {**body, **held}, units)
+            asked[entry["file"]] = folder
+        else:
+            shutil.copy(os.path.join(case.folder, entry["file"]), folder)
+            given.append(folder)
+    return given, asked
+
+
+def place_of(at):
+    return "base" if at == "world" else at.removesuffix("_motor")
+
+
+def values_of(case, kind, at, parameters):
+    out = {}
+    for parameter in parameters:
+        rule = VALUES.get((kind, parameter["name"]))
+        if not rule or parameter.get("chosen") or parameter["standard_deviation"] in (None, "inf"):
+            continue
+        name, power, sign = rule
+        factor = sign * (case.drives[place_of(at)]["ratio"]["value"] ** power if at.endswith("_motor") else 1.0)
+        middle, half = factor * parameter["value"], 1.96 * abs(factor) * parameter["standard_deviation"]
+        out[name] = {"value": middle, "interval": [middle - half, middle + half]}
+    return out
+
+
+def translate(case, result):
+    """Verdict and slots. A name's confidence is the share of resamples that chose it; its rivals share what is left."""
+    verdict = {"missing": "found", "nothing_missing": "nothing", "unexplained": "outside"}[result["verdict"]]
+    slots = []
+    for accepted in result["accepted"]:
+        kind, place = KINDS.get(accepted["effect"], "other"), place_of(accepted["at"])
+        share = min(0.95, max(0.05, accepted["selected_share"]))
+        names = [{"kind": kind, "place": place, "confidence": share,
+                  "values": values_of(case, kind, accepted["at"], accepted["parameters"])}]
+        for rival in accepted["rivals"]:
+            name = (KINDS.get(rival["effect"], "other"), place_of(rival["at"]))
+            if name in case.allowed and name not in [(n["kind"], n["place"]) for n in names]:
+                names.append({"kind": name[0], "place": name[1], "confidence": 0.0})
+        for name in names[1:]:
+            name["confidence"] = max(0.01, (1.0 - share) / (len(names) - 1))
+        slots.append(names)
+    if verdict == "outside":
+        for name in (n for names in slots for n in names):
+            name["confidence"] *= 0.5
+    return verdict, slots
+
+
+def predict(case, program, asked, model, out):
+    for name, folder in asked.items():
+        trace = os.path.join(folder, "trace.csv")
+        done = subprocess.run([program, "simulate", folder, "--model", model, "-o", trace], capture_output=True, text=True)
+        if done.returncode == 0:
+            table = read_csv(trace)
+            write_prediction(out, name, table["t"], {c: table[f"q_{c}"] for c in case.positions()}, case.columns)
+        else:
+            print(done.stderr.strip(), file=sys.stderr)
+
+
+def processor_seconds(process):
+    """Of a child that runs, from Linux' account of it."""
+    with open(f"/proc/{process.pid}/stat", encoding="utf-8") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def diagnose(command, seconds):
+    """Ends the diagnosis as Ctrl-C does when 85 % of the time are over: it then writes what it has."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    while process.poll() is None:
+        if processor_seconds(process) > 0.85 * seconds:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+        time.sleep(0.1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("case")
+    parser.add_argument("out")
+    parser.add_argument("--program", default="plumbline")
+    parser.add_argument("--keep", action="store_true", help="leave the program's files in OUT_FOLDER/work")
+    options = parser.parse_args()
+    case, work = Case(options.case), os.path.join(options.out, "work")
+    os.makedirs(work, exist_ok=True)
+    given, asked = write_inputs(case, work)
+    found, result = os.path.join(work, "found.yaml"), os.path.join(work, "result.json")
+    model = os.path.join(work, "model.yaml")
+    predict(case, options.program, asked, model, options.out)  # should the time end: the model as it was given
+    write_answer(options.out, case, "nothing", [], otherwise=0.02)
+    diagnose([options.program, "diagnose", *given, "--json", result, "--save", found], case.about["seconds_allowed"])
+    with open(result, encoding="utf-8") as file:
+        verdict, slots = translate(case, json.load(file))
+    write_answer(options.out, case, verdict, slots)
+    predict(case, options.program, asked, found if os.path.exists(found) else model, options.out)
+    if not options.keep:
+        shutil.rmtree(work)
+
+
+if __name__ == "__main__":
+    main()

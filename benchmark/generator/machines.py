@@ -1,0 +1,137 @@
+"""The machines of the benchmark: equations of motion by hand, in SI units.
+
+Every machine gives  M(q) a + h(q, v) = f : the mass matrix of its links, h with the forces of inertia and of gravity, and f, what
+drives, friction, springs and the ground put on the joints. Rotors are added by the world (world.py): a rotor of inertia J behind a
+ratio N has the kinetic energy (N v)^2 J / 2 with the joint's speed v.
+
+Links hang down (-z) at q = 0 and turn about +y. Gravity g points along -z; a tilt turns it by an angle about y.
+"""
+
+import math
+
+GRAVITY = 9.80665  # m/s^2
+
+
+def with_payload(link, mass, distance):
+    """A link with a point mass at a distance from its joint: masses add, moments add, Huygens and Steiner for the inertia."""
+    total = link["mass"] + mass
+    center = (link["mass"] * link["center"] + mass * distance) / total
+    inertia = (link["inertia"] + link["mass"] * (link["center"] - center) ** 2 + mass * (distance - center) ** 2)
+    return dict(link, mass=total, center=center, inertia=inertia)
+
+
+class Pendulum:
+    """One link on a geared drive.
+
+    Lagrange: T = (I + m c^2) v^2 / 2, V = -m g c cos(q + tilt)  =>  (I + m c^2) a + m g c sin(q + tilt) = f.
+    """
+
+    name = "pendulum"
+    title = "A pendulum on a geared drive"
+    joints = ("shoulder",)
+    links = {"shoulder": "arm"}
+    sliding = ()
+    stated = {
+        "links": {"arm": {"mass": 1.1, "center": 0.22, "inertia": 0.016, "length": 0.4}},
+        "drives": {"shoulder": {"ratio": 40.0, "rotor_inertia": 2.5e-5, "damping": 0.06}},
+    }
+
+    def __init__(self, numbers, tilt=0.0):
+        arm = numbers["links"]["arm"]
+        self.inertia = arm["inertia"] + arm["mass"] * arm["center"] ** 2
+        self.moment = arm["mass"] * arm["center"] * GRAVITY
+        self.tilt = tilt
+
+    def equations(self, q, v):
+        return ((self.inertia,),), (self.moment * math.sin(q[0] + self.tilt),)
+
+    def energy(self, q, v):
+        return 0.5 * self.inertia * v[0] ** 2 - self.moment * math.cos(q[0] + self.tilt)
+
+
+class Arm:
+    """Two links in a vertical plane, each on a geared drive. q2 is the angle of the elbow, relative to the upper arm.
+
+    Centres of mass move with  p1' = c1 v1  and  p2'^2 = L^2 v1^2 + c2^2 (v1 + v2)^2 + 2 L c2 cos(q2) v1 (v1 + v2). Hence
+    M11 = I1 + m1 c1^2 + I2 + m2 (L^2 + c2^2 + 2 L c2 cos q2),  M12 = I2 + m2 (c2^2 + L c2 cos q2),  M22 = I2 + m2 c2^2,
+    h1 = -m2 L c2 sin(q2) (2 v1 v2 + v2^2) + (m1 c1 + m2 L) g sin(q1 + tilt) + m2 c2 g sin(q1 + q2 + tilt),
+    h2 =  m2 L c2 sin(q2) v1^2 + m2 c2 g sin(q1 + q2 + tilt).
+    """
+
+    name = "arm"
+    title = "A geared arm of two joints in a vertical plane"
+    joints = ("shoulder", "elbow")
+    links = {"shoulder": "upper", "elbow": "fore"}
+    sliding = ()
+    stated = {
+        "links": {"upper": {"mass": 1.6, "center": 0.14, "inertia": 0.014, "length": 0.3},
+                  "fore": {"mass": 0.9, "center": 0.13, "inertia": 0.007, "length": 0.28}},
+        "drives": {"shoulder": {"ratio": 50.0, "rotor_inertia": 3.0e-5, "damping": 0.12},
+                   "elbow": {"ratio": 30.0, "rotor_inertia": 2.0e-5, "damping": 0.05}},
+    }
+
+    def __init__(self, numbers, tilt=0.0):
+        upper, fore = numbers["links"]["upper"], numbers["links"]["fore"]
+        self.tilt = tilt
+        self.m22 = fore["inertia"] + fore["mass"] * fore["center"] ** 2
+        self.coupling = fore["mass"] * upper["length"] * fore["center"]
+        self.m11 = (upper["inertia"] + upper["mass"] * upper["center"] ** 2 + fore["mass"] * upper["length"] ** 2 + self.m22)
+        self.moment1 = GRAVITY * (upper["mass"] * upper["center"] + fore["mass"] * upper["length"])
+        self.moment2 = GRAVITY * fore["mass"] * fore["center"]
+
+    def equations(self, q, v):
+        cosine, sine = self.coupling * math.cos(q[1]), self.coupling * math.sin(q[1])
+        weight2 = self.moment2 * math.sin(q[0] + q[1] + self.tilt)
+        m12 = self.m22 + cosine
+        h1 = -sine * (2.0 * v[0] * v[1] + v[1] ** 2) + self.moment1 * math.sin(q[0] + self.tilt) + weight2
+        return ((self.m11 + 2.0 * cosine, m12), (m12, self.m22)), (h1, sine * v[0] ** 2 + weight2)
+
+    def energy(self, q, v):
+        mass, _ = self.equations(q, v)
+        kinetic = 0.5 * (mass[0][0] * v[0] ** 2 + 2.0 * mass[0][1] * v[0] * v[1] + mass[1][1] * v[1] ** 2)
+        return (kinetic - self.moment1 * math.cos(q[0] + self.tilt) - self.moment2 * math.cos(q[0] + q[1] + self.tilt))
+
+
+class Hopper:
+    """A body on a vertical rail (z, up) and a foot on a leg (s, down from the body), with a spring beside the leg's drive.
+
+    T = mb z'^2 / 2 + mf (z' - s')^2 / 2, V = mb g z + mf g (z - s)  =>  M = [[mb + mf, -mf], [-mf, mf]],
+    h = [(mb + mf) g, -mf g]. The toe is at z - length - s; the ground's force F is F on z and -F on s.
+    """
+
+    name = "hopper"
+    title = "A hopper on a vertical rail, with a driven leg and a spring beside the drive"
+    joints = ("rail", "leg")
+    links = {"rail": "body", "leg": "foot"}
+    sliding = ("rail", "leg")
+    stated = {
+        "links": {"body": {"mass": 5.0}, "foot": {"mass": 0.5}},
+        "drives": {"leg": {"ratio": 50.0, "rotor_inertia": 1.0e-4, "damping": 12.0}},
+        "springs": {"leg": {"stiffness": 3000.0, "rest": 0.018}},
+        "ground": {"toe": {"stiffness": 1.0e6, "damping": 3.0e5, "exponent": 1.5, "length": 0.4}},
+    }
+
+    def __init__(self, numbers, tilt=0.0):
+        self.body, self.foot = (numbers["links"][name]["mass"] for name in ("body", "foot"))
+        self.ground = numbers["ground"]["toe"]
+        self.cosine = math.cos(tilt)
+
+    def equations(self, q, v):
+        weight = GRAVITY * self.cosine
+        return (((self.body + self.foot, -self.foot), (-self.foot, self.foot)),
+                ((self.body + self.foot) * weight, -self.foot * weight))
+
+    def ground_force(self, q, v):
+        """Hunt and Crossley: depth^n (k + c rate), never pulling."""
+        depth = self.ground["length"] + q[1] - q[0] + self.ground.get("height", 0.0)
+        if depth <= 0.0:
+            return 0.0
+        rate = v[1] - v[0]
+        return max(0.0, depth ** self.ground["exponent"] * (self.ground["stiffness"] + self.ground["damping"] * rate))
+
+    def energy(self, q, v):
+        kinetic = 0.5 * self.body * v[0] ** 2 + 0.5 * self.foot * (v[0] - v[1]) ** 2
+        return kinetic + GRAVITY * self.cosine * (self.body * q[0] + self.foot * (q[0] - q[1]))
+
+
+MACHINES = {machine.name: machine for machine in (Pendulum, Arm, Hopper)}
