@@ -38,7 +38,9 @@ constexpr const char* kUsage =
     "  --do WORDS           \"arm; wait 1; go; wait 60; finish\" instead of words from standard input:\n"
     "                       arm, go, finish, stop, reset, quit, wait SECONDS\n"
     "\n"
-    "Exit status: 0 no fault; 1 a fault stopped the robot; 2 wrong certificate, input or usage.\n";
+    "Exit status: 0 no fault; 1 a fault stopped the robot, or no robot answered; 2 wrong certificate, input "
+    "or\n"
+    "usage.\n";
 
 std::atomic<bool> interrupted{false};
 
@@ -255,6 +257,12 @@ int drive(int argc, char** argv) {
       static_cast<unsigned long long>(session.counts().cycles), session.answer().quantile(0.5),
       session.answer().quantile(0.999), static_cast<double>(session.answer().largest()) / 1000.0,
       static_cast<unsigned long long>(session.counts().lost), static_cast<unsigned long long>(log.lost()));
+  if (session.counts().cycles == 0) {
+    const Counts& counts = session.counts();
+    std::fprintf(stderr, "drive: no robot answered at %s: %llu packets came, none of them of this session\n",
+                 arguments.robot.c_str(), static_cast<unsigned long long>(counts.corrupt + counts.foreign));
+    return 1;
+  }
   return session.faults() > 0 ? 1 : 0;
 }
 

@@ -6,29 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "simulator/model/body_change.h"
 #include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::model {
 
 using effects::Place;
-
-namespace {
-
-/// Body and a point mass at r, given in the body's frame, become one rigid body (theorem of parallel axes).
-void hang_on(Body& body, double mass, const Eigen::Vector3d& r) {
-  if (mass == 0.0) {
-    return;
-  }
-  const double total = body.mass + mass;
-  const Eigen::Vector3d lever = r - body.com;
-  body.inertia += body.mass * mass / total *
-                  (lever.squaredNorm() * Eigen::Matrix3d::Identity() - lever * lever.transpose());
-  body.com += mass / total * lever;
-  body.mass = total;
-}
-
-}  // namespace
 
 Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain)
     : model_(model), terrain_(std::move(terrain)) {
@@ -312,18 +296,7 @@ void Plant::apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::V
   switch (model_.resolve(*slot.law, use.at)) {
     case Place::body: {
       Body& body = skeleton.bodies[static_cast<std::size_t>(model_.body_index(use.at))];
-      const double mass = body.mass + change.mass;
-      if (!(mass > 0.0)) {
-        throw InputError(model_.file + ": " + use.label() + ": found a total mass of " +
-                         std::to_string(mass) + " kg, expected more than 0");
-      }
-      // A payload changes the inertia in proportion, as if the link's own material were denser.
-      if (body.mass > 0.0) {
-        body.inertia *= mass / body.mass;
-      }
-      body.mass = mass;
-      body.com += change.com_shift;
-      hang_on(body, change.payload, change.payload_at);
+      change_body(body, change, model_.file + ": " + use.label());
       return;
     }
     case Place::world:

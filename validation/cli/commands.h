@@ -27,6 +27,7 @@ void add_report(CLI::App& app, const std::vector<std::string>& words);
 void add_suggest(CLI::App& app, Outcome& outcome);
 void add_new_trial(CLI::App& app, Outcome& outcome);
 void add_new_model(CLI::App& app, Outcome& outcome);
+void add_export(CLI::App& app, Outcome& outcome);
 void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);
 void add_spring_mass(CLI::App& app, Outcome& outcome);

@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
     plumbline::cli::add_suggest(app, outcome);
     plumbline::cli::add_new_trial(app, outcome);
     plumbline::cli::add_new_model(app, outcome);
+    plumbline::cli::add_export(app, outcome);
     plumbline::cli::add_twin(app, outcome);
     plumbline::cli::add_render(app, outcome);
     plumbline::cli::add_spring_mass(app, outcome);
