@@ -12,6 +12,8 @@ double TangentialLaw::stored_energy(double /*normal*/, const double* /*state*/, 
   return 0.0;
 }
 
+bool TangentialLaw::is_isotropic(const double* /*p*/) const { return true; }
+
 void NormalLaw::apply(const GroundChange& /*change*/, double* /*p*/) const {}
 
 void TangentialLaw::apply(const GroundChange& /*change*/, double* /*p*/) const {}

@@ -50,6 +50,8 @@ class TangentialLaw : public effects::Law {
                           double* rate) const;
   /// J
   virtual double stored_energy(double normal, const double* state, const double* p) const;
+  /// Is the force the same in all directions of the plane? Default: yes.
+  virtual bool is_isotropic(const double* p) const;
   /// W, at constant normal force.
   virtual double dissipated_power(const Eigen::Vector2d& slip, double normal, const double* state,
                                   const double* p) const = 0;

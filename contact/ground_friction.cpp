@@ -82,6 +82,8 @@ std::vector<effects::Values> GroundFriction::starts(const effects::Scales& scale
 
 bool GroundFriction::is_null(const double* p) const { return !has_bristles(p) && p[kViscous] == 0.0; }
 
+bool GroundFriction::is_isotropic(const double* p) const { return p[kLateral] == 1.0; }
+
 Vector2d GroundFriction::force(const Vector2d& slip, double normal, const double* state,
                                const double* p) const {
   if (!(normal > 0.0)) return Vector2d::Zero();

@@ -51,6 +51,7 @@ class GroundFriction final : public TangentialLaw {
   effects::Values typical(const effects::Scales& scales) const override;
   std::vector<effects::Values> starts(const effects::Scales& scales) const override;
   bool is_null(const double* p) const override;
+  bool is_isotropic(const double* p) const override;
 
   Eigen::Vector2d force(const Eigen::Vector2d& slip, double normal, const double* state,
                         const double* p) const override;

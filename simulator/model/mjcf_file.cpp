@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
-#include "simulator/model/mjcf_defaults.h"
+#include "simulator/model/joint_chain.h"
 #include "simulator/model/mjcf_shapes.h"
+#include "simulator/model/mjcf_values.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
@@ -21,12 +22,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kNothing = 1e-12;
 
-class MjcfReader {
+class MjcfReader : private MjcfValues {
  public:
-  explicit MjcfReader(const std::string& path) : file_(path) {
+  explicit MjcfReader(const std::string& path) : MjcfValues(path) {
     const std::string text = read_text(path);
     if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       throw InputError({file_, document_.ErrorLineNum(), ""},
@@ -62,17 +62,12 @@ class MjcfReader {
       refuse(*world, "no <body>", "at least one");
     }
     refuse_massless();
+    check_joint_names(skeleton_);
     name_what_is_left_out();
     return std::move(skeleton_);
   }
 
  private:
-  [[noreturn]] void refuse(const XMLElement& element, const std::string& found,
-                           const std::string& expected) const {
-    const char* name = element.Attribute("name");
-    throw InputError({file_, element.GetLineNum(), name != nullptr ? name : element.Name()}, found, expected);
-  }
-
   void refuse_includes(const XMLElement& element) const {
     for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
@@ -104,112 +99,14 @@ class MjcfReader {
     }
   }
 
-  std::vector<double> numbers(const XMLElement& element, const char* text, const std::string& name) const {
-    std::vector<double> values;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-      const std::optional<double> value = parse_number(word);
-      if (!value) {
-        refuse(element, name + "=\"" + text + "\"", "numbers");
-      }
-      values.push_back(*value);
-    }
-    return values;
-  }
-
-  Vector3d vector(const XMLElement& element, const char* text, const std::string& name) const {
-    const std::vector<double> values = numbers(element, text, name);
-    if (values.size() != 3) {
-      refuse(element, name + "=\"" + std::string(text) + "\"", "three numbers");
-    }
-    return {values[0], values[1], values[2]};
-  }
-
-  double number(const XMLElement& element, const char* name, const std::string& childclass,
-                double otherwise) const {
-    const char* text = defaults_.attribute(element, name, childclass);
-    if (text == nullptr) {
-      return otherwise;
-    }
-    const std::vector<double> values = numbers(element, text, name);
-    if (values.empty()) {
-      refuse(element, std::string(name) + "=\"\"", "a number");
-    }
-    return values.front();
-  }
-
-  /// Of a body, geom or inertial.
-  Eigen::Isometry3d pose(const XMLElement& element, const std::string& childclass) const {
-    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    if (const char* at = defaults_.attribute(element, "pos", childclass)) {
-      X.translation() = vector(element, at, "pos");
-    }
-    X.linear() = orientation(element, childclass);
-    return X;
-  }
-
-  Matrix3d orientation(const XMLElement& element, const std::string& childclass) const {
-    const auto given = [&](const char* name) { return defaults_.attribute(element, name, childclass); };
-    const auto take = [&](const char* name, std::size_t count) {
-      const std::vector<double> values = numbers(element, given(name), name);
-      if (values.size() != count) {
-        refuse(element, std::string(name) + "=\"" + given(name) + "\"", std::to_string(count) + " numbers");
-      }
-      return values;
-    };
-    if (given("quat") != nullptr) {
-      const std::vector<double> q = take("quat", 4);
-      const Eigen::Quaterniond quaternion(q[0], q[1], q[2], q[3]);
-      if (!(quaternion.norm() > 0.0)) {
-        refuse(element, "a quaternion of zeros", "a rotation");
-      }
-      return quaternion.normalized().toRotationMatrix();
-    }
-    if (given("axisangle") != nullptr) {
-      const std::vector<double> a = take("axisangle", 4);
-      return Eigen::AngleAxisd(angle_ * a[3], Vector3d(a[0], a[1], a[2]).normalized()).toRotationMatrix();
-    }
-    if (given("euler") != nullptr) {
-      return euler(take("euler", 3));
-    }
-    if (given("xyaxes") != nullptr) {
-      const std::vector<double> a = take("xyaxes", 6);
-      Matrix3d R;
-      R.col(0) = Vector3d(a[0], a[1], a[2]).normalized();
-      const Vector3d y(a[3], a[4], a[5]);
-      R.col(1) = (y - y.dot(R.col(0)) * R.col(0)).normalized();
-      R.col(2) = R.col(0).cross(R.col(1));
-      return R;
-    }
-    if (given("zaxis") != nullptr) {
-      const std::vector<double> a = take("zaxis", 3);
-      return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d(a[0], a[1], a[2]))
-          .toRotationMatrix();
-    }
-    return Matrix3d::Identity();
-  }
-
-  /// Lower-case letters turn about the moving axes, upper-case ones about the fixed.
-  Matrix3d euler(const std::vector<double>& angles) const {
-    Matrix3d R = Matrix3d::Identity();
-    for (std::size_t i = 0; i < 3 && i < euler_.size(); ++i) {
-      const char c = euler_[i];
-      const bool moving = c >= 'x';
-      const int axis = moving ? c - 'x' : c - 'X';
-      const Matrix3d turn =
-          Eigen::AngleAxisd(angle_ * angles[i], Vector3d::Unit(std::clamp(axis, 0, 2))).toRotationMatrix();
-      R = moving ? Matrix3d(R * turn) : Matrix3d(turn * R);
-    }
-    return R;
-  }
-
   std::string fresh_name(const XMLElement& element, const std::string& fallback) {
     const char* given = element.Attribute("name");
+    std::set<std::string>& taken = names_[element.Name()];  // a joint may be called as its body is
     std::string name = given != nullptr ? given : fallback;
-    if (given != nullptr && names_.count(name) != 0) {
+    if (given != nullptr && taken.count(name) != 0) {
       refuse(element, "this name twice", "each name once");
     }
-    for (int i = 2; !names_.insert(name).second; ++i) {
+    for (int i = 2; !taken.insert(name).second; ++i) {
       name = fallback + "_" + std::to_string(i);
     }
     return name;
@@ -226,14 +123,39 @@ class MjcfReader {
     body.name = fresh_name(element, "body_" + std::to_string(skeleton_.bodies.size() + 1));
     read_inertia(element, childclass, body);
     const Eigen::Isometry3d X_PB = pose(element, childclass);
-    if (const XMLElement* free = element.FirstChildElement("freejoint")) {
-      refuse(*free, "a free joint", "joints of type hinge and slide (floating bases are not supported yet)");
+    append_joints(element, childclass, body, X_PB, parent);
+    note_spheres(element, childclass, body.name);
+    const int self = static_cast<int>(skeleton_.bodies.size()) - 1;
+    for (const XMLElement* child = element.FirstChildElement("body"); child != nullptr;
+         child = child->NextSiblingElement("body")) {
+      read_body(*child, self, childclass);
     }
+  }
+
+  std::vector<const XMLElement*> joints_of(const XMLElement& element) const {
     std::vector<const XMLElement*> joints;
-    for (const XMLElement* joint = element.FirstChildElement("joint"); joint != nullptr;
-         joint = joint->NextSiblingElement("joint")) {
-      joints.push_back(joint);
+    for (const XMLElement* one = element.FirstChildElement(); one != nullptr;
+         one = one->NextSiblingElement()) {
+      const std::string name = one->Name();
+      if (name == "joint" || name == "freejoint") {
+        joints.push_back(one);
+      }
     }
+    return joints;
+  }
+
+  std::string kind_of(const XMLElement& joint, const std::string& childclass) const {
+    if (std::string(joint.Name()) == "freejoint") {
+      return "free";
+    }
+    const char* type = defaults_.attribute(joint, "type", childclass);
+    return type == nullptr ? "hinge" : type;
+  }
+
+  /// The body behind its joints; between them bodies without mass.
+  void append_joints(const XMLElement& element, const std::string& childclass, const Body& body,
+                     const Eigen::Isometry3d& X_PB, int parent) {
+    const std::vector<const XMLElement*> joints = joints_of(element);
     if (joints.empty()) {
       Joint joint;
       joint.name = "fix_" + body.name;
@@ -242,24 +164,60 @@ class MjcfReader {
       append(body, std::move(joint));
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      Joint joint = read_joint(*joints[j], childclass, body.name);
+      const std::string kind = kind_of(*joints[j], childclass);
+      if (kind == "free") {
+        append_free(*joints[j], childclass, body, X_PB, {parent, joints.size()});
+        return;
+      }
+      Joint joint = read_joint(*joints[j], kind, childclass, body.name);
       const Vector3d at = position_of(*joints[j], childclass);
       const Eigen::Isometry3d X_BJ(Eigen::Translation3d(at.x(), at.y(), at.z()));
       joint.parent = j == 0 ? parent : static_cast<int>(skeleton_.bodies.size()) - 1;
       joint.X_PJ = (j == 0 ? X_PB : Eigen::Isometry3d::Identity()) * X_BJ;
       joint.X_CJ = X_BJ;
+      Body here = body;
       if (j + 1 < joints.size()) {
-        Body between;
-        between.name = body.name + "_of_" + joint.name;
-        append(between, std::move(joint));
+        here = Body{};
+        here.name = body.name + "_of_" + joint.name;
+      }
+      if (kind == "ball") {
+        append_chain(skeleton_, here, joint, ball_chain(joint.name));
       } else {
-        append(body, std::move(joint));
+        append(here, std::move(joint));
       }
     }
-    const int self = static_cast<int>(skeleton_.bodies.size()) - 1;
-    for (const XMLElement* child = element.FirstChildElement("body"); child != nullptr;
-         child = child->NextSiblingElement("body")) {
-      read_body(*child, self, childclass);
+  }
+
+  struct Place {
+    int parent;
+    std::size_t joints;  // of the body
+  };
+  /// Its coordinates are the body's place in the world, as MuJoCo's are.
+  void append_free(const XMLElement& element, const std::string& childclass, const Body& body,
+                   const Eigen::Isometry3d& X_PB, const Place& place) {
+    if (place.parent >= 0 || place.joints != 1) {
+      refuse(element,
+             place.parent >= 0 ? "a free joint of a body inside another" : "a free joint beside others",
+             "a free joint alone, in a body of <worldbody>");
+    }
+    Joint ends;
+    ends.name = fresh_name(element, body.name);
+    ends.parent = -1;
+    const std::string prefix = free_prefix(skeleton_, true, ends.name);
+    append_chain(skeleton_, body, ends, free_chain(prefix));
+    name_passive(element, "free joint " + prefix, childclass);
+    if (!X_PB.isApprox(Eigen::Isometry3d::Identity())) {
+      skeleton_.left_out.push_back("The pose of the free body " + body.name + ": " + prefix + "_x to " +
+                                   prefix + "_roll are its place in the world.");
+    }
+  }
+
+  /// What a joint of several degrees of freedom says of friction and inertia.
+  void name_passive(const XMLElement& element, const std::string& what, const std::string& childclass) {
+    for (const char* name : {"damping", "frictionloss", "armature", "stiffness"}) {
+      if (std::string(element.Name()) == "joint" && number(element, name, childclass, 0.0) != 0.0) {
+        skeleton_.left_out.push_back("The " + std::string(name) + " of the " + what + ".");
+      }
     }
   }
 
@@ -274,14 +232,18 @@ class MjcfReader {
     return at == nullptr ? Vector3d::Zero() : vector(joint, at, "pos");
   }
 
-  Joint read_joint(const XMLElement& element, const std::string& childclass, const std::string& body) {
-    const char* type = defaults_.attribute(element, "type", childclass);
-    const std::string kind = type == nullptr ? "hinge" : type;
-    if (kind != "hinge" && kind != "slide") {
-      refuse(element, "a joint of type " + kind, "hinge or slide");
+  Joint read_joint(const XMLElement& element, const std::string& kind, const std::string& childclass,
+                   const std::string& body) {
+    if (kind != "hinge" && kind != "slide" && kind != "ball") {
+      refuse(element, "a joint of type " + kind, "hinge, slide, ball or free");
     }
     Joint joint;
     joint.name = fresh_name(element, body + "_joint");
+    limits_ += defaults_.attribute(element, "range", childclass) != nullptr ? 1 : 0;
+    if (kind == "ball") {
+      name_passive(element, "ball joint " + joint.name, childclass);
+      return joint;
+    }
     joint.type = kind == "hinge" ? JointType::revolute : JointType::prismatic;
     const char* axis = defaults_.attribute(element, "axis", childclass);
     joint.axis = axis == nullptr ? Vector3d::UnitZ() : vector(element, axis, "axis");
@@ -300,16 +262,7 @@ class MjcfReader {
       refuse(element, "ref, another zero of the joint",
              "0: the zero of the file's pose; sensors have an `offset`");
     }
-    limits_ += defaults_.attribute(element, "range", childclass) != nullptr ? 1 : 0;
     return joint;
-  }
-
-  double not_negative(const XMLElement& element, const char* name, const std::string& childclass) const {
-    const double value = number(element, name, childclass, 0.0);
-    if (value < 0.0) {
-      refuse(element, std::string(name) + " " + number_text(value), "zero or more");
-    }
-    return value;
   }
 
   void read_inertia(const XMLElement& element, const std::string& childclass, Body& body) {
@@ -377,6 +330,33 @@ class MjcfReader {
     body.mass = whole.mass;
     body.com = whole.com;
     body.inertia = whole.inertia;
+  }
+
+  /// Spheres that may touch the ground (contype and conaffinity are not both 0).
+  void note_spheres(const XMLElement& element, const std::string& childclass, const std::string& body) {
+    for (const XMLElement* geom = element.FirstChildElement("geom"); geom != nullptr;
+         geom = geom->NextSiblingElement("geom")) {
+      const char* type = defaults_.attribute(*geom, "type", childclass);
+      const bool touches = number(*geom, "contype", childclass, 1.0) != 0.0 ||
+                           number(*geom, "conaffinity", childclass, 1.0) != 0.0;
+      if (!touches) {
+        continue;
+      }
+      if ((type != nullptr && std::string(type) != "sphere") ||
+          defaults_.attribute(*geom, "mesh", childclass) != nullptr) {
+        ++shapes_;
+        continue;
+      }
+      ContactSphere sphere;
+      sphere.name = fresh_name(*geom, body + "_sphere");
+      sphere.body = static_cast<int>(skeleton_.bodies.size()) - 1;
+      sphere.centre = pose(*geom, childclass).translation();
+      sphere.radius = number(*geom, "size", childclass, 0.0);
+      if (!(sphere.radius > 0.0)) {
+        refuse(*geom, "a sphere of radius " + number_text(sphere.radius) + " m", "a radius above zero");
+      }
+      skeleton_.spheres.push_back(std::move(sphere));
+    }
   }
 
   RigidPart read_geom(const XMLElement& geom, const std::string& kind, const std::string& childclass) const {
@@ -449,21 +429,22 @@ class MjcfReader {
                                      (*part.advice != '\0' ? std::string(": ") + part.advice : "") + ".");
       }
     }
+    if (shapes_ > 0) {
+      skeleton_.left_out.push_back("The contact of " + std::to_string(shapes_) +
+                                   " geoms that are no spheres: state points of them as `feet`.");
+    }
     if (limits_ > 0) {
       skeleton_.left_out.push_back("The ranges of " + std::to_string(limits_) +
                                    " joints: state a stop as the effect `hard_stop`.");
     }
   }
 
-  std::string file_;
   tinyxml2::XMLDocument document_;
   const XMLElement* root_ = nullptr;
-  MjcfDefaults defaults_;
-  double angle_ = kDegree;  // rad for each unit of the file's angles
-  std::string euler_ = "xyz";
   std::string from_geoms_ = "auto";
-  std::set<std::string> names_;
+  std::map<std::string, std::set<std::string>> names_;  // by kind of element
   int limits_ = 0;
+  int shapes_ = 0;  // geoms that may touch something and are no spheres
   Skeleton skeleton_;
 };
 

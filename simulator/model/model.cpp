@@ -81,7 +81,11 @@ std::vector<std::string> Model::places(effects::Place place) const {
       }
       break;
     case effects::Place::body:
-      append_names(skeleton.bodies, names);
+      for (const Body& body : skeleton.bodies) {
+        if (!body.is_between) {
+          names.push_back(body.name);
+        }
+      }
       break;
     case effects::Place::sensor:
       for (const Sensor& sensor : sensors) {
@@ -94,7 +98,12 @@ std::vector<std::string> Model::places(effects::Place place) const {
       names.emplace_back("world");
       break;
     case effects::Place::foot:
-      append_names(feet, names);
+      for (const Foot& foot : feet) {
+        const std::string& at = foot.group.empty() ? foot.name : foot.group;
+        if (std::find(names.begin(), names.end(), at) == names.end()) {
+          names.push_back(at);
+        }
+      }
       break;
     case effects::Place::base:
       if (planar_base(skeleton)) {

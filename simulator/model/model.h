@@ -33,6 +33,8 @@ struct Body {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();      // p_BBcm_B
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // I_BBcm_B
   double mass_uncertainty = 0.0;                      ///< one standard deviation, kg
+  bool is_between =
+      false;  ///< without mass, inside a joint of several degrees of freedom; no place for effects
 };
 
 /// A joint from parent to child. parent == -1: the world. Child frame J sits on the child; the joint axis is
@@ -49,6 +51,16 @@ struct Joint {
   /// What the skeleton file itself says under <dynamics>: N m s/rad and N m (N s/m and N); 0: nothing.
   double damping = 0.0, friction = 0.0;
   double armature = 0.0;  ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
+  bool floats = false;    ///< one of the six of a free joint (joint_chain.h): nothing drives it
+};
+
+/// A sphere of the skeleton file that may touch the ground, on a body (index), its centre in the body's
+/// frame.
+struct ContactSphere {
+  std::string name;
+  int body = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< m
+  double radius = 0.0;                               ///< m
 };
 
 struct Skeleton {
@@ -57,6 +69,12 @@ struct Skeleton {
   std::vector<Joint> joints;  ///< one for each body (bodies fixed to the world have a fixed joint)
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.80665);
   std::vector<std::string> left_out{};  ///< what the file says and nobody takes over, a sentence each
+  /// Joints (indices) that are the pitch of a free or ball joint: a state near +-90 degrees is refused.
+  std::vector<int> charts{};
+  std::vector<ContactSphere> spheres{};  ///< MJCF: geoms that may touch the ground
+
+  /// Is a body free to turn in all ways?
+  bool floats() const { return !charts.empty(); }
 };
 
 /// factor * (joint, pulley or coordinate position)
@@ -106,12 +124,18 @@ struct Inertia {
   Quantity value;
 };
 
-/// A point of a link that may meet the ground.
+/// A point of a link that may meet the ground, or a sphere about it: what touches is then the centre less the
+/// radius along the ground's normal, another point of the link as it rolls.
 struct Foot {
   std::string name;
   int body = 0;                                     ///< index in Skeleton::bodies
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // p_BF_B
   std::string source;
+  double radius = 0.0;  ///< m; 0: a point
+  std::string group;    ///< feet that share their laws, by the group's name; empty: it has its own
+
+  /// Does an effect at `place` act on this foot?
+  bool answers_to(const std::string& place) const { return place == (group.empty() ? name : group); }
 };
 
 /// A use of an effect: a law, its place and its values.

@@ -267,7 +267,11 @@ Sensor read_sensor(const std::string& name, const YamlNode& node, const Model& m
 }
 
 int foot_of(const YamlNode& node, const Model& model) {
-  require_known(node, node.text(), model.places(effects::Place::foot), "foot of the model");
+  std::vector<std::string> names;
+  for (const Foot& foot : model.feet) {
+    names.push_back(foot.name);
+  }
+  require_known(node, node.text(), names, "foot of the model");
   const auto is_it = [&](const Foot& one) { return one.name == node.text(); };
   return static_cast<int>(std::find_if(model.feet.begin(), model.feet.end(), is_it) - model.feet.begin());
 }
@@ -306,20 +310,6 @@ ContactSwitch read_switch(const std::string& name, const YamlNode& node, const M
   read("lateness_uncertainty", "s", contact.lateness_uncertainty);
   read("bounce", "s", contact.bounce);
   return contact;
-}
-
-Eigen::Vector3d read_point(const YamlNode& node) {
-  const YamlNode value = node.at("value");
-  const std::vector<YamlNode> numbers = value.items();
-  if (numbers.size() != 3) {
-    value.refuse(std::to_string(numbers.size()) + " numbers", "three: [x, y, z] in the link's frame");
-  }
-  const YamlNode unit = node.at("unit");
-  if (!units_agree(unit.text(), "m")) {
-    unit.refuse("unit " + quote(unit.text()), "a unit like " + quote("m"));
-  }
-  const double scale = to_si_factor(unit.text());
-  return scale * Eigen::Vector3d(numbers[0].number(), numbers[1].number(), numbers[2].number());
 }
 
 }  // namespace
@@ -382,16 +372,6 @@ void read_inertias(const YamlNode& node, Model& model) {
     inertia.value = read_quantity(entry.at("value"),
                                   {inertia_unit(is_angular(model, inertia.at)), Sign::positive, false, {}});
     model.inertias.push_back(std::move(inertia));
-  }
-}
-
-void read_feet(const YamlNode& node, Model& model) {
-  for (const auto& [name, entry] : node.entries()) {
-    check_name(name, entry);
-    entry.allow_keys({"link", "value", "unit", "source", "assumed"});
-    const YamlNode link = entry.at("link");
-    require_known(link, link.text(), model.places(effects::Place::body), "link of the skeleton");
-    model.feet.push_back({name, model.body_index(link.text()), read_point(entry), read_origin(entry).text});
   }
 }
 

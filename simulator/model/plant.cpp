@@ -2,6 +2,7 @@
 #include "simulator/model/plant.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,8 +20,12 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   for (const EffectUse& use : model_.effects) {
     values_.push_back(use.numbers());
   }
-  for (const Joint& joint : model_.skeleton.joints) {
-    n_tree_ += joint.type == JointType::fixed ? 0 : 1;
+  const std::vector<int>& charts = model_.skeleton.charts;
+  for (std::size_t j = 0; j < model_.skeleton.joints.size(); ++j) {
+    if (std::find(charts.begin(), charts.end(), static_cast<int>(j)) != charts.end()) {
+      charts_.push_back(n_tree_);
+    }
+    n_tree_ += model_.skeleton.joints[j].type == JointType::fixed ? 0 : 1;
   }
   n_ = n_tree_ + motors() + static_cast<int>(model_.pulleys.size());
   torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
@@ -374,14 +379,14 @@ std::vector<std::string> Plant::state_names() const {
     names[static_cast<std::size_t>(i)] = "position of " + name;
     names[static_cast<std::size_t>(nz_ + i)] = "velocity of " + name;
   }
-  const auto label = [&](int effect, int state) {
+  const auto label = [&](int effect, int state, const std::string& of_group = "") {
     if (state < 0) {
       return;
     }
     const EffectUse& use = model_.effects[static_cast<std::size_t>(effect)];
     const auto& states = use.law->declaration().states;
     for (std::size_t k = 0; k < states.size(); ++k) {
-      names[static_cast<std::size_t>(state) + k] = states[k] + " of " + use.label();
+      names[static_cast<std::size_t>(state) + k] = states[k] + " of " + use.label() + of_group;
     }
   };
   for (const ForceSlot& slot : forces_) {
@@ -393,8 +398,9 @@ std::vector<std::string> Plant::state_names() const {
     }
   }
   for (const FootSlot& slot : feet_) {
+    const Foot& foot = model_.feet[static_cast<std::size_t>(slot.foot)];
     for (const FootSlot::Drag& use : slot.drags) {
-      label(use.effect, use.state);
+      label(use.effect, use.state, foot.group.empty() ? "" : " (" + foot.name + ")");
     }
   }
   return names;

@@ -37,8 +37,10 @@ struct Touch {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   double depth = 0.0;                                  ///< in the ground when above 0, m
-  Eigen::Vector2d left = Eigen::Vector2d::UnitY();     ///< of its link (the frame's y) along the ground
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< of the ground on the foot, N
+  /// Of its link (the frame's y) along the ground; of a robot that floats, where friction is alike in all
+  /// directions, of the world: a link that tumbles has no left.
+  Eigen::Vector2d left = Eigen::Vector2d::UnitY();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the ground on the foot, N
 };
 
 /// How deep a foot is in the ground (under 0: above it), m, and its rate, m/s.
@@ -85,7 +87,8 @@ class Plant {
   /// The effects whose parameters decide what they are carried to.
   std::vector<int> carried_state_effects() const;
 
-  /// Time derivative of the state for the commands that hold now (delayed already, in command units).
+  /// Time derivative of the state for the commands that hold now (delayed already, in command units). Throws
+  /// std::runtime_error where a free or ball joint is at its chart's singularity (joint_chain.h).
   void rate(const double* x, const double* command, double* xdot);
 
   /// d2z/dt2 of a start at rest under gravity alone, without any effect's force.
@@ -235,7 +238,8 @@ class Plant {
     std::vector<Normal> normals;
     std::vector<Drag> drags;
     std::vector<Change> changes;
-    double height = 0.0;  // of all changes, m
+    double height = 0.0;      // of all changes, m
+    bool keeps_axes = false;  // its bristles lie in the world's axes, not in those of its link
   };
   struct ActuatorSlot {
     const effects::ActuatorLaw* law = nullptr;
@@ -272,6 +276,7 @@ class Plant {
   Eigen::VectorXd stretch_direction(const Ratio& ratio) const;
   Line line_of(const Eigen::VectorXd& full) const;
   bool is_released(const Ratio& ratio) const;
+  void check_charts() const;
   void reduce(const std::vector<Lock>& locks);
   void place_effects();
   void place_force(const effects::ForceLaw& law, int effect, int& next_state);
@@ -279,6 +284,7 @@ class Plant {
   void place_ground(int& next_state);
   void find_feet();
   void change_ground();
+  Eigen::Vector3d below(const FootSlot& slot) const;
   const FootSlot* slot_of(int foot) const;
   void ground_parameter_tangent(const FootSlot& slot, const double* x, ParameterId id, double step,
                                 effects::Values moved, Eigen::Ref<Eigen::VectorXd> column);
@@ -337,6 +343,7 @@ class Plant {
   std::vector<effects::Values> values_;
   std::vector<effects::Values> on_ground_;  // the same for the ground's laws, with its changes
   std::vector<int> independent_;            // full coordinates that z are
+  std::vector<int> charts_;                 // full coordinates that are a chart's pitch
   int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
   bool gear_friction_ = false;     // does a law feel what a gear passes on?
   Eigen::VectorXd motor_pulleys_;  // inertia that turns with each motor beside its rotor

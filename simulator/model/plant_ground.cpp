@@ -24,7 +24,7 @@ void Plant::place_ground(int& next_state) {
     slot.foot = static_cast<int>(f);
     for (int e = 0; e < static_cast<int>(model_.effects.size()); ++e) {
       const EffectUse& use = model_.effects[static_cast<std::size_t>(e)];
-      if (use.at != foot.name || use.law->is_null(values(e))) {
+      if (!foot.answers_to(use.at) || use.law->is_null(values(e))) {
         continue;
       }
       if (const auto* normal = dynamic_cast<const contact::NormalLaw*>(use.law.get())) {
@@ -37,11 +37,15 @@ void Plant::place_ground(int& next_state) {
     for (int e = 0; e < static_cast<int>(model_.effects.size()); ++e) {
       const EffectUse& use = model_.effects[static_cast<std::size_t>(e)];
       if (const auto* change = dynamic_cast<const contact::GroundChangeLaw*>(use.law.get())) {
-        if (use.at == foot.name) {
+        if (foot.answers_to(use.at)) {
           slot.changes.push_back({change, e});
         }
       }
     }
+    slot.keeps_axes = model_.skeleton.floats() &&
+                      std::all_of(slot.drags.begin(), slot.drags.end(), [&](const FootSlot::Drag& use) {
+                        return use.law->is_isotropic(values(use.effect));
+                      });
     if (!slot.normals.empty()) {
       feet_.push_back(std::move(slot));
     }
@@ -54,16 +58,23 @@ void Plant::change_ground() {
     return;
   }
   on_ground_ = values_;
+  std::vector<std::pair<int, int>> done;  // change and law: feet of a group share both
+  const auto apply = [&](const contact::GroundChange& change, int by, const auto& use) {
+    if (std::find(done.begin(), done.end(), std::pair(by, use.effect)) == done.end()) {
+      use.law->apply(change, on_ground_[static_cast<std::size_t>(use.effect)].data());
+      done.emplace_back(by, use.effect);
+    }
+  };
   for (FootSlot& slot : feet_) {
     slot.height = 0.0;
     for (const FootSlot::Change& use : slot.changes) {
       const contact::GroundChange change = use.law->change(values(use.effect));
       slot.height += change.height;
       for (const FootSlot::Normal& normal : slot.normals) {
-        normal.law->apply(change, on_ground_[static_cast<std::size_t>(normal.effect)].data());
+        apply(change, use.effect, normal);
       }
       for (const FootSlot::Drag& drag : slot.drags) {
-        drag.law->apply(change, on_ground_[static_cast<std::size_t>(drag.effect)].data());
+        apply(change, use.effect, drag);
       }
     }
   }
@@ -80,13 +91,19 @@ void Plant::find_feet() {
   }
 }
 
+// From a foot's point to what touches level ground.
+Eigen::Vector3d Plant::below(const FootSlot& slot) const {
+  return -model_.feet[static_cast<std::size_t>(slot.foot)].radius * Eigen::Vector3d::UnitZ();
+}
+
 Touch Plant::touch(const FootSlot& slot) const {
   const TreeDynamics& tree = structure_.mechanism->tree();
   Touch touch;
-  touch.position = tree.station(slot.body, model_.feet[static_cast<std::size_t>(slot.foot)].point);
+  touch.position =
+      tree.station(slot.body, model_.feet[static_cast<std::size_t>(slot.foot)].point) + below(slot);
   touch.velocity = tree.station_velocity(slot.body, touch.position);
   const Eigen::Vector2d left = tree.rotation(slot.body).col(1).head<2>();
-  if (left.norm() > 1e-3) {  // a link on its side has no left: then the world's
+  if (!slot.keeps_axes && left.norm() > 1e-3) {  // a link on its side has no left: then the world's
     touch.left = left.normalized();
   }
   touch.depth = terrain_.height_at(touch.position.x()) - touch.position.z() + slot.height;
@@ -184,7 +201,11 @@ void Plant::find_turning(const FootSlot& slot, const Touch& at) {
   const TreeDynamics& tree = structure_.mechanism->tree();
   Eigen::Matrix3Xd by_joints;
   tree.station_velocity_slope(slot.body, at.position, by_joints);
-  const Eigen::RowVectorXd yaw = tree.yaw_slope(slot.body);
+  if (model_.feet[static_cast<std::size_t>(slot.foot)].radius > 0.0) {
+    tree.take_rolling(slot.body, below(slot), by_joints);
+  }
+  const Eigen::RowVectorXd yaw =
+      slot.keeps_axes ? Eigen::RowVectorXd::Zero(n_tree_) : tree.yaw_slope(slot.body);
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(at.velocity);
   foot_V_.setZero(3, nz_);
   foot_yaw_.setZero(nz_);
@@ -206,7 +227,11 @@ void Plant::leverage_tangent(const FootSlot& slot, const Touch& at, const double
   const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(pressed.force);
   slopes_.leftCols(nz_).noalias() += (foot_J_.transpose() * turned) * foot_yaw_;
   Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(n_tree_, n_tree_);
-  structure_.mechanism->tree().add_force_slope(slot.body, pressed.position, pressed.force, by_joints);
+  const TreeDynamics& tree = structure_.mechanism->tree();
+  tree.add_force_slope(slot.body, pressed.position, pressed.force, by_joints);
+  if (model_.feet[static_cast<std::size_t>(slot.foot)].radius > 0.0) {
+    tree.take_rolling(slot.body, below(slot), pressed.force, by_joints);
+  }
   slopes_.leftCols(nz_).noalias() += S_tree_.transpose() * by_joints * S_tree_;
 }
 
@@ -349,7 +374,7 @@ Eigen::RowVectorXd Plant::depth_slope(int foot, const double* x, const std::vect
   return slope;
 }
 
-// The foot is where rate() has left it.
+// The foot is where rate() has left it. Adds to the column.
 void Plant::ground_parameter_tangent(const FootSlot& slot, const double* x, ParameterId id, double step,
                                      effects::Values moved, Eigen::Ref<Eigen::VectorXd> column) {
   effects::Values& stored = values_[static_cast<std::size_t>(id.effect)];
@@ -363,8 +388,8 @@ void Plant::ground_parameter_tangent(const FootSlot& slot, const double* x, Para
   press(slot, x, after, up.data());
   std::swap(stored, moved);
   change_ground();
-  column = (up - now) / step;
-  column.segment(nz_, nz_) =
+  column += (up - now) / step;
+  column.segment(nz_, nz_) +=
       factor_.solve(foot_jacobian(slot, before).transpose() * ((after.force - before.force) / step));
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/model/asked_torque.h"
+#include "simulator/model/joint_chain.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -172,9 +173,19 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
   add_ground(x, Q, xdot);
 }
 
+// Joint positions are those of the last evaluation.
+void Plant::check_charts() const {
+  for (const int pitch : charts_) {
+    if (std::abs(std::cos(q_[pitch])) < kLeastCosineOfPitch) {
+      throw std::runtime_error(model_.file + ": " + chart_refusal(coordinate_name(pitch), q_[pitch]));
+    }
+  }
+}
+
 void Plant::rate(const double* x, const double* command, double* xdot) {
   deliver_torques(x, command, xdot);
   factor_at(x);
+  check_charts();
   Q_ = -h_;
   add_forces(x, Q_, xdot);
   acceleration_ = factor_.solve(Q_);

@@ -345,9 +345,8 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
   }
   const std::string& at = model_.effects[static_cast<std::size_t>(id.effect)].at;
   for (const FootSlot& slot : feet_) {
-    if (model_.feet[static_cast<std::size_t>(slot.foot)].name == at) {
-      ground_parameter_tangent(slot, x, id, step, std::move(moved), column);
-      return;
+    if (model_.feet[static_cast<std::size_t>(slot.foot)].answers_to(at)) {
+      ground_parameter_tangent(slot, x, id, step, moved, column);
     }
   }
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "simulator/trace/error.h"
+#include "simulator/trace/number_text.h"
+
 namespace plumbline::model {
 namespace {
 
@@ -13,7 +16,14 @@ RigidContact::RigidContact(Plant& plant)
     : plant_(plant),
       kinematics_(plant),
       rate_(Eigen::VectorXd::Zero(plant.states())),
-      no_command_(Eigen::VectorXd::Zero(plant.motors())) {}
+      no_command_(Eigen::VectorXd::Zero(plant.motors())) {
+  for (const Foot& foot : plant.model().feet) {
+    if (foot.radius > 0.0) {
+      throw InputError(plant.model().file + ": foot " + foot.name + ": found a radius of " +
+                       number_text(foot.radius) + " m, expected a point: rigid ground holds points");
+    }
+  }
+}
 
 const Eigen::MatrixXd& RigidContact::mass_matrix(const double* x) {
   plant_.rate(x, no_command_.data(), rate_.data());

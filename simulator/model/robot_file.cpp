@@ -6,6 +6,7 @@
 
 #include "simulator/model/effect_list.h"
 #include "simulator/model/from_data_sheets.h"
+#include "simulator/model/joint_chain.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/robot_reader.h"
 #include "simulator/model/yaml_chain.h"
@@ -48,13 +49,23 @@ Skeleton read_skeleton_of(const std::vector<YamlNode>& chain, const SkeletonRead
   return skeletons(skeleton_path(chain.back().at("skeleton")));  // refuses: the base has none
 }
 
+void read_floating_base(const YamlNode& node, Model& model) {
+  if (node.flag() && !free_base(model.skeleton)) {
+    node.refuse("a floating base of a skeleton that hangs on the world by joints of its own",
+                "one root link that no joint leads to");
+  }
+  check_joint_names(model.skeleton);
+}
+
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
-  root.allow_keys({"plumbline", "robot", "skeleton", "gravity", "masses", "coordinates", "motors", "pulleys",
-                   "ratios", "inertias", "sensors", "feet", "effects", "joint_dynamics"});
+  root.allow_keys({"plumbline", "robot", "skeleton", "floating_base", "gravity", "masses", "coordinates",
+                   "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "effects",
+                   "joint_dynamics"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
   model.skeleton = std::move(skeleton);
+  read_section(root, "floating_base", read_floating_base, model);
   read_section(root, "gravity", read_gravity, model);
   read_section(root, "masses", read_masses, model);
   read_section(root, "pulleys", read_pulleys, model);

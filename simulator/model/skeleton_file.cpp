@@ -1,6 +1,7 @@
 // SDFormat and URDF to a Skeleton, through libsdformat.
 #include <algorithm>
 
+#include "simulator/model/joint_chain.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/sdformat_access.h"
@@ -16,6 +17,9 @@ struct LooseLink {
 struct LooseJoint {
   Joint joint;
   std::string parent, child;  ///< parent "world": the world
+  enum class Kind { single, free, ball, universal, planar } kind = Kind::single;
+  Eigen::Vector3d first = Eigen::Vector3d::UnitZ();   ///< axis of a universal joint, normal of a planar one
+  Eigen::Vector3d second = Eigen::Vector3d::UnitZ();  ///< the other axis of a universal joint
   Eigen::Isometry3d X_MJ = Eigen::Isometry3d::Identity();
 };
 
@@ -93,6 +97,35 @@ class TreeBuilder {
     skeleton.joints.push_back(std::move(joint));
   }
 
+  static bool is_on_world(const Skeleton& skeleton, int body) {
+    while (body >= 0 && skeleton.joints[static_cast<std::size_t>(body)].type == JointType::fixed) {
+      body = skeleton.joints[static_cast<std::size_t>(body)].parent;
+    }
+    return body < 0;
+  }
+
+  /// A free joint on the world has no frame of its own: its coordinates are the link's place in the world.
+  void append_many(Skeleton& skeleton, std::size_t link, const LooseJoint& loose, Joint ends) {
+    using Kind = LooseJoint::Kind;
+    std::vector<ChainAxis> axes;
+    if (loose.kind == Kind::free) {
+      const bool on_world = is_on_world(skeleton, ends.parent);
+      if (on_world) {
+        ends.parent = -1;
+        ends.X_PJ = ends.X_CJ = Eigen::Isometry3d::Identity();
+      }
+      axes = free_chain(free_prefix(skeleton, on_world, ends.name));
+    } else if (loose.kind == Kind::ball) {
+      axes = ball_chain(ends.name);
+    } else if (loose.kind == Kind::universal) {
+      axes = universal_chain(ends.name, loose.first, loose.second);
+    } else {
+      axes = planar_chain(ends.name, loose.first);
+    }
+    append_chain(skeleton, links_[link].body, ends, axes);
+    index_[link] = static_cast<int>(skeleton.bodies.size()) - 1;
+  }
+
   /// Appends the links whose parents are in; true when there was one.
   bool add_children(Skeleton& skeleton) {
     bool added = false;
@@ -110,7 +143,11 @@ class TreeBuilder {
       joint.parent = on_world ? -1 : index_[parent];
       joint.X_PJ = on_world ? X_WM_ * loose.X_MJ : links_[parent].X_ML.inverse() * loose.X_MJ;
       joint.X_CJ = links_[i].X_ML.inverse() * loose.X_MJ;
-      append(skeleton, i, std::move(joint));
+      if (loose.kind == LooseJoint::Kind::single) {
+        append(skeleton, i, std::move(joint));
+      } else {
+        append_many(skeleton, i, loose, std::move(joint));
+      }
       added = true;
     }
     return added;
@@ -120,8 +157,10 @@ class TreeBuilder {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (index_[i] < 0) {
         const std::string& name = links_[i].body.name;
-        xml_.refuse({name, xml_.line_of_link(name)}, "a link that no chain of joints connects to the world",
-                    "a joint that does (floating bases are not supported yet)");
+        xml_.refuse(
+            {name, xml_.line_of_link(name)}, "a link that no chain of joints connects to the world",
+            "a joint that does: a base that floats has a URDF joint of type floating, or the model says "
+            "`floating_base: true`");
       }
     }
   }
@@ -178,6 +217,37 @@ JointType joint_type(sdf::JointType type) {
   }
 }
 
+/// Direction of an axis in the joint's frame.
+Eigen::Vector3d axis_of(const sdf::Joint& joint, unsigned int which, const SkeletonXml& xml) {
+  const sdf::JointAxis* axis = joint.Axis(which);
+  ignition::math::Vector3d direction;
+  if (axis != nullptr) {
+    refuse_errors(axis->ResolveXyz(direction), xml);
+  }
+  if (!(direction.Length() > 0.0)) {
+    xml.refuse({joint.Name(), xml.line_of_joint(joint.Name())}, which == 0 ? "no axis" : "no second axis",
+               "an axis of a joint that moves");
+  }
+  return to_eigen(direction).normalized();
+}
+
+/// What kind of several degrees of freedom it has, if it has.
+void read_kind(const sdf::Joint& joint, const SkeletonXml& xml, LooseJoint& loose) {
+  using Kind = LooseJoint::Kind;
+  if (xml.urdf_joint(joint.Name()) == UrdfJoint::floating) {
+    loose.kind = Kind::free;
+  } else if (xml.urdf_joint(joint.Name()) == UrdfJoint::planar) {
+    loose.kind = Kind::planar;
+    loose.first = xml.planar_normal(joint.Name());
+  } else if (joint.Type() == sdf::JointType::BALL) {
+    loose.kind = Kind::ball;
+  } else if (joint.Type() == sdf::JointType::UNIVERSAL) {
+    loose.kind = Kind::universal;
+    loose.first = axis_of(joint, 0, xml);
+    loose.second = axis_of(joint, 1, xml);
+  }
+}
+
 LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   LooseJoint loose;
   loose.joint.name = joint.Name();
@@ -187,18 +257,12 @@ LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   ignition::math::Pose3d pose;
   refuse_errors(joint.SemanticPose().Resolve(pose, "__model__"), xml);
   loose.X_MJ = to_eigen(pose);
-  if (loose.joint.type == JointType::fixed) {
+  read_kind(joint, xml, loose);
+  if (loose.joint.type == JointType::fixed || loose.kind != LooseJoint::Kind::single) {
     return loose;
   }
+  loose.joint.axis = axis_of(joint, 0, xml);
   const sdf::JointAxis* axis = joint.Axis(0);
-  ignition::math::Vector3d direction;
-  if (axis != nullptr) {
-    refuse_errors(axis->ResolveXyz(direction), xml);
-  }
-  if (!(direction.Length() > 0.0)) {
-    xml.refuse({joint.Name(), xml.line_of_joint(joint.Name())}, "no axis", "an axis of a joint that moves");
-  }
-  loose.joint.axis = to_eigen(direction).normalized();
   loose.joint.damping = std::max(0.0, axis->Damping());
   loose.joint.friction = std::max(0.0, axis->Friction());
   return loose;
@@ -223,6 +287,7 @@ Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
     skeleton.gravity = to_eigen(loaded.world->Gravity());
   }
   TreeBuilder(xml, std::move(links), std::move(joints), to_eigen(pose)).build(skeleton);
+  check_joint_names(skeleton);
   return skeleton;
 }
 

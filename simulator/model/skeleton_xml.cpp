@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
@@ -232,14 +233,20 @@ void SkeletonXml::check_joints(const XMLElement& model) {
     const XmlPart part = named(*joint, joints_);
     joints_.push_back(part);
     check_joint(*joint, part);
+    if (urdf_) {
+      note_urdf_joint(*joint, part);
+    }
   }
 }
 
 void SkeletonXml::check_joint(const XMLElement& joint, const XmlPart& part) const {
-  const std::set<std::string> known{"revolute", "continuous", "prismatic", "fixed"};
+  const std::set<std::string> in_urdf{"revolute", "continuous", "prismatic", "fixed", "floating", "planar"};
+  const std::set<std::string> in_sdf{"revolute", "continuous", "prismatic", "fixed", "ball", "universal"};
   const std::string type = attribute(joint, "type");
-  if (known.count(type) == 0) {
-    refuse(part, "joint type \"" + type + "\"", "revolute, continuous, prismatic or fixed");
+  if ((urdf_ ? in_urdf : in_sdf).count(type) == 0) {
+    refuse(part, "joint type \"" + type + "\"",
+           std::string("revolute, continuous, prismatic, fixed, ") +
+               (urdf_ ? "floating or planar" : "ball or universal"));
   }
   if (urdf_) {
     check_urdf_joint(joint, part);
@@ -265,8 +272,40 @@ void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part)
   }
 }
 
+void SkeletonXml::note_urdf_joint(const XMLElement& joint, const XmlPart& part) {
+  const std::string type = attribute(joint, "type");
+  if (type == "floating") {
+    floating_.insert(part.name);
+  }
+  if (type != "planar") {
+    return;
+  }
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // URDF's axis where none is given
+  if (const XMLElement* axis = joint.FirstChildElement("axis")) {
+    std::istringstream words(attribute(*axis, "xyz"));
+    words >> normal.x() >> normal.y() >> normal.z();
+    if (!words || !(normal.norm() > 0.0)) {
+      refuse({part.name + " axis", axis->GetLineNum()}, "\"" + attribute(*axis, "xyz") + "\"",
+             "three numbers that are not all zero");
+    }
+  }
+  planar_[part.name] = normal.normalized();
+}
+
+UrdfJoint SkeletonXml::urdf_joint(const std::string& name) const {
+  return floating_.count(name) != 0 ? UrdfJoint::floating
+         : planar_.count(name) != 0 ? UrdfJoint::planar
+                                    : UrdfJoint::single;
+}
+
+Eigen::Vector3d SkeletonXml::planar_normal(const std::string& name) const { return planar_.at(name); }
+
 void SkeletonXml::keep_fixed_joints(XMLElement& robot) {
-  for (const XMLElement* joint : children(robot, "joint")) {
+  for (XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    if (urdf_joint(attribute(*joint, "name")) != UrdfJoint::single) {
+      joint->SetAttribute("type", "fixed");
+    }
     if (attribute(*joint, "type") == "fixed") {
       XMLElement* extension = document_.NewElement("gazebo");
       extension->SetAttribute("reference", joint->Attribute("name"));

@@ -4,6 +4,8 @@
 
 #include <tinyxml2.h>
 
+#include <Eigen/Core>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +19,9 @@ struct XmlPart {
   std::string name;
   int line = 0;
 };
+
+/// Joints of several degrees of freedom that libsdformat does not know in a URDF.
+enum class UrdfJoint { single, floating, planar };
 
 /// Whether the shapes of a URDF's links are kept for libsdformat.
 enum class UrdfShapes { left_out, kept };
@@ -35,6 +40,9 @@ class SkeletonXml {
   bool has_inertial(const std::string& link) const { return links_with_inertial_.count(link) != 0; }
   int line_of_link(const std::string& name) const;
   int line_of_joint(const std::string& name) const;
+  /// What a URDF says of a joint; a planar one's normal is in `normal`, in the joint's frame.
+  UrdfJoint urdf_joint(const std::string& name) const;
+  Eigen::Vector3d planar_normal(const std::string& name) const;
   /// The part that a message of libsdformat speaks of; an empty name when it names none.
   XmlPart part_in(const std::string& message) const;
 
@@ -43,8 +51,9 @@ class SkeletonXml {
   bool has_massless() const { return massless_; }
   std::string text() const;
 
-  /// A URDF such that libsdformat keeps every link: fixed joints are kept, massless links get a placeholder
-  /// inertial (which has_inertial() tells from a real one), extensions are left out, and shapes where the
+  /// A URDF such that libsdformat keeps every link: fixed joints are kept, floating and planar joints become
+  /// fixed ones (which urdf_joint() tells from real ones), massless links get a placeholder inertial (which
+  /// has_inertial() tells from a real one), extensions are left out, and shapes where the
   /// physics is read.
   std::string urdf_for_sdformat(UrdfShapes shapes);
 
@@ -61,6 +70,7 @@ class SkeletonXml {
   double number(const tinyxml2::XMLElement& parent, const char* name, const XmlPart& part) const;
   XmlPart named(const tinyxml2::XMLElement& element, const std::vector<XmlPart>& taken) const;
   void keep_fixed_joints(tinyxml2::XMLElement& robot);
+  void note_urdf_joint(const tinyxml2::XMLElement& joint, const XmlPart& part);
 
   std::string file_;
   tinyxml2::XMLDocument document_;
@@ -69,6 +79,8 @@ class SkeletonXml {
   bool massless_ = false;
   std::vector<XmlPart> links_, joints_;
   std::set<std::string> links_with_inertial_;
+  std::set<std::string> floating_;
+  std::map<std::string, Eigen::Vector3d> planar_;  ///< with their normals
 };
 
 }  // namespace plumbline::model

@@ -202,6 +202,33 @@ void TreeDynamics::station_velocity_slope(int body, const Eigen::Vector3d& p_W,
   }
 }
 
+void TreeDynamics::take_rolling(int body, const Eigen::Vector3d& offset, Eigen::Matrix3Xd& slope) const {
+  const Eigen::Vector3d turn = velocity_[static_cast<std::size_t>(body)].head<3>();
+  for (int b = body; b >= 0; b = bodies_[static_cast<std::size_t>(b)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(b)].coordinate;
+    if (coordinate >= 0) {
+      slope.col(coordinate) -= turn.cross(axis_[static_cast<std::size_t>(b)].head<3>().cross(offset));
+    }
+  }
+}
+
+void TreeDynamics::take_rolling(int body, const Eigen::Vector3d& offset, const Eigen::Vector3d& force,
+                                Eigen::MatrixXd& K) const {
+  for (int b = body; b >= 0; b = bodies_[static_cast<std::size_t>(b)].parent) {
+    const int column = bodies_[static_cast<std::size_t>(b)].coordinate;
+    if (column < 0) {
+      continue;
+    }
+    const Eigen::Vector3d moved = axis_[static_cast<std::size_t>(b)].head<3>().cross(offset);
+    for (int a = body; a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+      const int row = bodies_[static_cast<std::size_t>(a)].coordinate;
+      if (row >= 0) {
+        K(row, column) -= force.dot(axis_[static_cast<std::size_t>(a)].head<3>().cross(moved));
+      }
+    }
+  }
+}
+
 Eigen::RowVectorXd TreeDynamics::yaw_slope(int body) const {
   Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(size_);
   const Eigen::Vector3d y = rotation(body).col(1);

@@ -55,6 +55,12 @@ class TreeDynamics {
   /// d(station_velocity)/dq with the rates held, 3 x coordinates: of joint b, whose parent has the angular
   /// velocity W and carries the point along with u, w_b x (v - u) + W x J_b.
   void station_velocity_slope(int body, const Eigen::Vector3d& p_W, Eigen::Matrix3Xd& slope) const;
+  /// What is to be taken from station_velocity_slope and add_force_slope, 3 x coordinates and coordinates^2,
+  /// where the point is not fixed on the body but `offset` (in the world, held) from one that is, as that of
+  /// a rolling sphere: W x (w_b x offset), and force . (w_a x (w_b x offset)).
+  void take_rolling(int body, const Eigen::Vector3d& offset, Eigen::Matrix3Xd& slope) const;
+  void take_rolling(int body, const Eigen::Vector3d& offset, const Eigen::Vector3d& force,
+                    Eigen::MatrixXd& K) const;
   /// d(angle of the body's y axis, seen from above)/dq, 1 x coordinates.
   Eigen::RowVectorXd yaw_slope(int body) const;
 

@@ -185,7 +185,8 @@ Snapshot Snapshots::at(double time) const {
   for (std::size_t f = 0; f < motion_.foot_forces.size(); ++f) {
     const model::Foot& foot = model.feet[f];
     const Eigen::Matrix3Xd& force = motion_.foot_forces[f];
-    shot.pushes.push_back({shot.poses[static_cast<std::size_t>(foot.body)] * foot.point,
+    const Eigen::Vector3d below = -foot.radius * Eigen::Vector3d::UnitZ();
+    shot.pushes.push_back({shot.poses[static_cast<std::size_t>(foot.body)] * foot.point + below,
                            (1.0 - share) * force.col(k) + share * force.col(next), foot.body});
   }
   if (!motion_.phase.empty()) {

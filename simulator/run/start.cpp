@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "simulator/model/joint_chain.h"
+
 namespace plumbline::run {
 namespace {
 
@@ -52,6 +54,16 @@ void check(model::Plant& plant, const std::vector<Named>& wanted, const Eigen::V
   }
 }
 
+void check_charts(const model::Plant& plant, const Eigen::VectorXd& x) {
+  for (const int joint : plant.model().skeleton.charts) {
+    const std::string& name = plant.model().skeleton.joints[static_cast<std::size_t>(joint)].name;
+    const std::string refusal = model::chart_refusal(name, plant.position_of(name, x.data()));
+    if (!refusal.empty()) {
+      throw std::runtime_error(refusal);
+    }
+  }
+}
+
 }  // namespace
 
 double* Start::position(const std::string& name) { return find(positions, name); }
@@ -87,6 +99,7 @@ Eigen::VectorXd start_state(model::Plant& plant, const Start& start) {
   if (!lifted) {
     check(plant, pose, x);
   }
+  check_charts(plant, x);
   return x;
 }
 

@@ -328,7 +328,7 @@ std::vector<PlannedJoint> plan_joints(const Skeleton& skeleton) {
   std::vector<PlannedJoint> planned;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
-    if (joint.type == JointType::fixed) {
+    if (joint.type == JointType::fixed || joint.floats) {  // nothing drives a floating base
       continue;
     }
     PlannedJoint one;

@@ -35,15 +35,15 @@ std::vector<Standing> standing_feet(model::Plant& plant, const Eigen::VectorXd& 
   return some;
 }
 
-const model::EffectUse* normal_law_at(const model::Model& model, const std::string& foot) {
+const model::EffectUse* normal_law_at(const model::Model& model, const model::Foot& foot) {
   const auto found = std::find_if(model.effects.begin(), model.effects.end(), [&](const auto& use) {
-    return use.at == foot && dynamic_cast<const contact::NormalLaw*>(use.law.get()) != nullptr;
+    return foot.answers_to(use.at) && dynamic_cast<const contact::NormalLaw*>(use.law.get()) != nullptr;
   });
   return found == model.effects.end() ? nullptr : &*found;
 }
 
 /// The depth at which a foot carries `weight`, by bisection; 0 where it has no law.
-double resting_depth(const model::Model& model, const std::string& foot, double weight) {
+double resting_depth(const model::Model& model, const model::Foot& foot, double weight) {
   constexpr double kDeepest = 0.1;  // m
   constexpr int kHalvings = 40;
   const model::EffectUse* use = normal_law_at(model, foot);
@@ -96,8 +96,8 @@ void stand_on_ground(model::Plant& plant, const Eigen::VectorXd& deviations, Eig
       const Standing& one = feet[static_cast<std::size_t>(i)];
       const model::FootDepth at = plant.foot_depth(one.foot, x.data());
       J.row(i) = plant.depth_slope(one.foot, x.data());
-      const std::string& name = plant.model().feet[static_cast<std::size_t>(one.foot)].name;
-      wanted[i] = (one.stands ? resting_depth(plant.model(), name, share) : 0.0) - at.depth;
+      const model::Foot& foot = plant.model().feet[static_cast<std::size_t>(one.foot)];
+      wanted[i] = (one.stands ? resting_depth(plant.model(), foot, share) : 0.0) - at.depth;
     }
     x.head(nz) += smallest(J, deviations, wanted);
   }

@@ -1,0 +1,159 @@
+// The model's feet: points, spheres and boxes of links.
+#include <algorithm>
+
+#include "simulator/model/kinds.h"
+#include "simulator/model/model_sections.h"
+#include "simulator/model/quantity.h"
+#include "simulator/trace/units.h"
+
+namespace plumbline::model {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kTaken = "feet";  // group of the spheres that are taken from the skeleton
+
+double length_unit(const YamlNode& entry) {
+  const YamlNode unit = entry.at("unit");
+  if (!units_agree(unit.text(), "m")) {
+    unit.refuse("unit " + quote(unit.text()), "a unit like " + quote("m"));
+  }
+  return to_si_factor(unit.text());
+}
+
+Vector3d three(const YamlNode& node, const std::string& expected) {
+  const std::vector<YamlNode> numbers = node.items();
+  if (numbers.size() != 3) {
+    node.refuse(std::to_string(numbers.size()) + " numbers", "three: " + expected);
+  }
+  return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
+}
+
+double above_zero(const YamlNode& node) {
+  const double value = node.number();
+  if (!(value > 0.0)) {
+    node.refuse("a number above zero");
+  }
+  return value;
+}
+
+int link_of(const YamlNode& entry, const Model& model) {
+  const YamlNode link = entry.at("link");
+  const std::vector<std::string> known = model.places(effects::Place::body);
+  if (std::find(known.begin(), known.end(), link.text()) == known.end()) {
+    link.refuse(quote(link.text()), "the name of a link of the skeleton" + nearest_names(link.text(), known));
+  }
+  return model.body_index(link.text());
+}
+
+/// The corners of a box whose edges lie along the link's axes, as feet of one group.
+void add_box(const YamlNode& box, double scale, const Foot& centre, Model& model) {
+  const Vector3d edges = scale * three(box, "the edges along the link's x, y and z");
+  if (!(edges.minCoeff() > 0.0)) {
+    box.refuse("an edge that is not above zero", "three edges above zero");
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d side((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                        (corner & 4) != 0 ? 0.5 : -0.5);
+    Foot foot = centre;
+    foot.name = centre.name + "_" + std::to_string(corner + 1);
+    foot.group = centre.group.empty() ? centre.name : centre.group;
+    foot.point += side.cwiseProduct(edges);
+    model.feet.push_back(foot);
+  }
+}
+
+const ContactSphere& sphere_of(const YamlNode& node, const Model& model) {
+  std::vector<std::string> names;
+  for (const ContactSphere& sphere : model.skeleton.spheres) {
+    if (sphere.name == node.text()) {
+      return sphere;
+    }
+    names.push_back(sphere.name);
+  }
+  node.refuse(quote(node.text()), "the name of a sphere of an MJCF skeleton that may touch the ground" +
+                                      nearest_names(node.text(), names));
+}
+
+Foot foot_of(const ContactSphere& sphere, const std::string& name) {
+  Foot foot;
+  foot.name = name;
+  foot.body = sphere.body;
+  foot.point = sphere.centre;
+  foot.radius = sphere.radius;
+  foot.source = "the skeleton's sphere " + sphere.name;
+  return foot;
+}
+
+void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
+  check_name(name, entry);
+  std::string group;
+  if (const auto given = entry.find("group")) {
+    group = given->text();
+    check_name(group, *given);
+  }
+  if (const auto sphere = entry.find("sphere")) {
+    entry.allow_keys({"sphere", "group"});
+    model.feet.push_back(foot_of(sphere_of(*sphere, model), name));
+    model.feet.back().group = group;
+    return;
+  }
+  entry.allow_keys({"link", "value", "unit", "radius", "box", "group", "source", "assumed"});
+  Foot foot;
+  foot.name = name;
+  foot.body = link_of(entry, model);
+  const double scale = length_unit(entry);
+  foot.point = scale * three(entry.at("value"), "[x, y, z] in the link's frame");
+  foot.source = read_origin(entry).text;
+  foot.group = group;
+  if (const auto radius = entry.find("radius")) {
+    foot.radius = scale * above_zero(*radius);
+  }
+  if (const auto box = entry.find("box")) {
+    add_box(*box, scale, foot, model);
+    return;
+  }
+  model.feet.push_back(std::move(foot));
+}
+
+/// All spheres of the skeleton, with laws in common.
+void take_spheres(const YamlNode& node, Model& model) {
+  if (node.text() != "take") {
+    node.refuse(quote(node.text()), "take, or feet by name");
+  }
+  if (model.skeleton.spheres.empty()) {
+    node.refuse("a skeleton without spheres that may touch the ground",
+                "an MJCF file with such geoms, or feet by name");
+  }
+  for (const ContactSphere& sphere : model.skeleton.spheres) {
+    model.feet.push_back(foot_of(sphere, sphere.name));
+    model.feet.back().group = kTaken;
+  }
+}
+
+void check_feet(const YamlNode& node, const Model& model) {
+  for (std::size_t f = 0; f < model.feet.size(); ++f) {
+    for (std::size_t g = 0; g < model.feet.size(); ++g) {
+      const Foot& one = model.feet[f];
+      const Foot& other = model.feet[g];
+      if (f != g && (one.name == other.name || (one.name == other.group && one.group != other.group))) {
+        node.refuse("two feet, or a foot and a group, called " + quote(one.name), "each name once");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void read_feet(const YamlNode& node, Model& model) {
+  if (!node.is_map()) {
+    take_spheres(node, model);
+    return;
+  }
+  for (const auto& [name, entry] : node.entries()) {
+    read_foot(name, entry, model);
+  }
+  check_feet(node, model);
+}
+
+}  // namespace plumbline::model
