@@ -138,12 +138,12 @@ void check_joint_names(const Skeleton& skeleton) {
   }
 }
 
-std::string chart_refusal(const std::string& joint, double pitch) {
-  if (std::abs(std::cos(pitch)) >= kLeastCosineOfPitch) {
+std::string chart_refusal(const std::string& joint, double pitch, double least) {
+  if (std::abs(std::cos(pitch)) >= least) {
     return "";
   }
   return joint + ": found a pitch of " + number_text(pitch, 4) + " rad, expected |cos(pitch)| of at least " +
-         number_text(kLeastCosineOfPitch) +
+         number_text(least) +
          ": nearer to +-90 degrees yaw and roll are one turn; turn the link's frame in the skeleton so that "
          "its x axis stays away from the vertical";
 }

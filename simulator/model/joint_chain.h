@@ -46,10 +46,14 @@ bool free_base(Skeleton& skeleton);
 /// Two joints of one name: throws InputError.
 void check_joint_names(const Skeleton& skeleton);
 
-/// Below this |cos(pitch)| a chart is refused: yaw and roll are all but one turn there.
+/// No motion may begin below this |cos(pitch)|: yaw and roll are all but one turn there.
 constexpr double kLeastCosineOfPitch = 0.05;
+/// And none may go on below this one: rates grow as its reciprocal. Between the two a motion passes, with
+/// small steps; searches of initial states come there on their way.
+constexpr double kLostCosineOfPitch = 1e-3;
 
-/// Why a chart's pitch (rad) is refused: what was found, and what to do about it. Empty where it is not.
-std::string chart_refusal(const std::string& joint, double pitch);
+/// Why a chart's pitch (rad) is refused where |cos(pitch)| has to be at least `least`: what was found, and
+/// what to do about it. Empty where it is not.
+std::string chart_refusal(const std::string& joint, double pitch, double least);
 
 }  // namespace plumbline::model

@@ -176,8 +176,9 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
 // Joint positions are those of the last evaluation.
 void Plant::check_charts() const {
   for (const int pitch : charts_) {
-    if (std::abs(std::cos(q_[pitch])) < kLeastCosineOfPitch) {
-      throw std::runtime_error(model_.file + ": " + chart_refusal(coordinate_name(pitch), q_[pitch]));
+    if (std::abs(std::cos(q_[pitch])) < kLostCosineOfPitch) {
+      throw std::runtime_error(model_.file + ": " +
+                               chart_refusal(coordinate_name(pitch), q_[pitch], kLostCosineOfPitch));
     }
   }
 }

@@ -16,10 +16,10 @@ Model read_model(const std::string& path, const effects::Catalogue& catalogue);
 /// SDFormat or URDF through libsdformat: one model of links and revolute, continuous, prismatic or fixed
 /// joints; ball and universal ones of SDFormat, floating and planar ones of URDF become chains
 /// (joint_chain.h). Every link stays a body, also behind a fixed joint. A single root link is fixed to the
-/// world when no joint leads there, unless the model says `floating_base: true`. Masses that the file does not state
-/// are not invented: a link without <inertial> has none, and must be fixed to the world or to a link that has
-/// one. Joint limits, damping and friction of the file are not read: those are effects. Gravity is the
-/// world's when it states one. Throws InputError with file, line and link or joint.
+/// world when no joint leads there, unless the model says `floating_base: true`. Masses that the file does
+/// not state are not invented: a link without <inertial> has none, and must be fixed to the world or to a
+/// link that has one. Joint limits, damping and friction of the file are not read: those are effects. Gravity
+/// is the world's when it states one. Throws InputError with file, line and link or joint.
 Skeleton read_skeleton(const std::string& path);
 
 /// A change on top of a model: an effect added, or values set with their new uncertainty and source.

@@ -57,7 +57,8 @@ void check(model::Plant& plant, const std::vector<Named>& wanted, const Eigen::V
 void check_charts(const model::Plant& plant, const Eigen::VectorXd& x) {
   for (const int joint : plant.model().skeleton.charts) {
     const std::string& name = plant.model().skeleton.joints[static_cast<std::size_t>(joint)].name;
-    const std::string refusal = model::chart_refusal(name, plant.position_of(name, x.data()));
+    const std::string refusal =
+        model::chart_refusal(name, plant.position_of(name, x.data()), model::kLeastCosineOfPitch);
     if (!refusal.empty()) {
       throw std::runtime_error(refusal);
     }
