@@ -59,7 +59,7 @@ TEST_P(Help, ExampleUsesOnlyOptionsThatExist) {
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("effects", "check", "simulate", "compare", "fit", "diagnose", "add",
                                          "ladder", "suggest", "report", "new-trial", "twin", "tune",
-                                         "validate", "render"),
+                                         "validate", "render", "export"),
                          name_of);
 
 TEST(Program, ListsEveryCommand) {
@@ -69,6 +69,42 @@ TEST(Program, ListsEveryCommand) {
                               "suggest", "report", "new-trial", "twin", "tune", "validate", "render"}) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  ") + command + " "));
   }
+}
+
+TEST(Program, ListsCommandsInTheOrderOfUse) {
+  const std::string out = run({"--help"}, "/").out;
+  std::size_t before = 0;
+  for (const char* line : {"A model and its measurements:\n  check ", "\n  new-model ", "\n  new-trial ",
+                           "\n  compare ", "\n  diagnose ", "\n  add ", "\n  fit ", "\n  ladder ",
+                           "\n  report ", "\n  export ", "from the published gait to the robot:\n  validate ",
+                           "\n  certify ", "\n  robot ", "Studies of single papers:\n  study "}) {
+    const std::size_t at = out.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    EXPECT_GT(at, before) << line;
+    before = at;
+  }
+  EXPECT_THAT(out, testing::Not(HasSubstr("\n  gait ")));
+}
+
+TEST(Program, OldNamesOfStudiesStillWorkAndSaySo) {
+  for (const std::string study : {"gait", "running", "step-down", "spring-mass"}) {
+    const Outcome now = run({"study", study, "--help"}, "/");
+    EXPECT_EQ(now.status, 0);
+    EXPECT_EQ(now.err, "");
+    const Outcome before = run({study, "--help"}, "/");
+    EXPECT_EQ(before.status, 0);
+    EXPECT_EQ(before.out, now.out);
+    EXPECT_EQ(before.err, "plumbline: `" + study + "` is called `study " + study +
+                              "` now; the old name goes with the next version\n");
+  }
+}
+
+TEST(Program, RefusesAnUnknownStudy) {
+  const Outcome outcome = run({"study", "gate"}, "/");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err,
+            "plumbline: found an unknown study \"gate\", expected a study; known: gait, step-down, running, "
+            "spring-mass\n");
 }
 
 TEST(Program, SaysItsVersion) {

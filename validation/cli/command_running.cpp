@@ -140,7 +140,7 @@ void add_running(CLI::App& app, Outcome& outcome) {
   command->add_flag("--verbose", options->verbose, "show the optimiser's own lines");
   add_json_option(*command, options->json);
   command->footer(
-      "Exit status 1 where no periodic motion was found.\n\nExample:\n  plumbline running design "
+      "Exit status 1 where no periodic motion was found.\n\nExample:\n  plumbline study running design "
       "robots/thumper/running_design.yaml --base robots/thumper/controllers/wiring.yaml -o running.yaml");
   command->callback([options, &outcome] {
     if (!options->output.empty() && options->base.empty()) {
@@ -153,7 +153,7 @@ void add_running(CLI::App& app, Outcome& outcome) {
   ladder->add_option("file", options->file, "scenario and rungs")->required()->type_name("FILE");
   add_json_option(*ladder, options->json);
   ladder->footer(
-      "Exit status 1 where it falls on a rung.\n\nExample:\n  plumbline running ladder "
+      "Exit status 1 where it falls on a rung.\n\nExample:\n  plumbline study running ladder "
       "robots/thumper/ladder.yaml");
   ladder->callback([options, &outcome] { climb(*options, outcome); });
 }

@@ -216,7 +216,7 @@ void add_spring_mass(CLI::App& app, Outcome& outcome) {
   table->add_option("--reference", options->reference, "published numbers to hold against")->type_name("CSV");
   table->add_option("--trails", options->trails, "random trails for each cell")->check(CLI::Range(1, 1000));
   table->add_option("--steps", options->steps, "steps of a trail")->check(CLI::Range(50, 100000));
-  table->footer("Example:\n  plumbline spring-mass table --reference robots/atrias/wu_table_3_1.csv");
+  table->footer("Example:\n  plumbline study spring-mass table --reference robots/atrias/wu_table_3_1.csv");
   table->callback([options] { run_table(*options); });
   CLI::App* trail = group->add_subcommand("trail", "one run from way-point to way-point over random tiles");
   add_scan_option(*trail, *options);
@@ -231,11 +231,11 @@ void add_spring_mass(CLI::App& app, Outcome& outcome) {
   trail->add_option("--seed", options->seed, "of way-points and tiles")->check(CLI::Range(0, 1000000000));
   trail->add_option("-o,--output", options->output, "folder for every step's numbers and four drawings")
       ->type_name("DIR");
-  trail->footer("Example:\n  plumbline spring-mass trail --seed 3 -o trail");
+  trail->footer("Example:\n  plumbline study spring-mass trail --seed 3 -o trail");
   trail->callback([options, &outcome] { run_trail_command(*options, outcome); });
   CLI::App* theory = group->add_subcommand(
       "theory", "how errors grow in stance and flight under feedback (Wu 2017, chapters 6 and 7)");
-  theory->footer("Example:\n  plumbline spring-mass theory");
+  theory->footer("Example:\n  plumbline study spring-mass theory");
   theory->callback([] { fmt::print("{}", sm::theory_report(sm::Gait{})); });
 }
 

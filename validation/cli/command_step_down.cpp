@@ -220,7 +220,7 @@ void add_step_down(CLI::App& app) {
   command->footer(
       "Contact intensity: the vertical impulse of the rigid impact at the state just before a touchdown, on "
       "the "
-      "design model.\n\nExample:\n  plumbline step-down robots/mabel/step_down.yaml --starts 24");
+      "design model.\n\nExample:\n  plumbline study step-down robots/mabel/step_down.yaml --starts 24");
   command->callback([arguments] { run(*arguments); });
 }
 

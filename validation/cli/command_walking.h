@@ -1,4 +1,4 @@
-// Commands on walking: `plumbline gait`, `plumbline step-down`.
+// Commands on walking: `plumbline study gait`, `plumbline study step-down`.
 #pragma once
 
 #include <CLI/CLI.hpp>

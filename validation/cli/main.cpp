@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "simulator/trace/error.h"
@@ -27,62 +28,100 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// The command line, the program by its own name.
+constexpr std::array<const char*, 4> kStudies{"gait", "running", "step-down", "spring-mass"};
+
+/// The command line, the program by its own name. A study's name alone, as before version 0.2, still finds
+/// it.
 std::vector<std::string> command_words(int argc, char** argv) {
   std::vector<std::string> words{"plumbline"};
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
+  if (words.size() > 1 && std::find(kStudies.begin(), kStudies.end(), words[1]) != kStudies.end()) {
+    fmt::print(stderr,
+               "plumbline: `{0}` is called `study {0}` now; the old name goes with the next version\n",
+               words[1]);
+    words.insert(words.begin() + 1, "study");
+  }
   return words;
 }
 
 /// CLI11 says only that a command is required when the one given is unknown.
-void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') {
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.size() < 2 || words[1].rfind('-', 0) == 0) {
     return;
   }
-  const std::string given = argv[1];
-  const std::vector<std::string> known = command_names(app);
+  const bool is_study = words[1] == "study" && words.size() > 2 && words[2].rfind('-', 0) != 0;
+  const std::string& given = words[is_study ? 2 : 1];
+  const std::vector<std::string> known = command_names(is_study ? *app.get_subcommand("study") : app);
   if (std::find(known.begin(), known.end(), given) == known.end()) {
-    throw plumbline::InputError("found an unknown command \"" + given + "\", expected a command" +
+    throw plumbline::InputError(std::string("found an unknown ") + (is_study ? "study" : "command") + " \"" +
+                                given + "\", expected a " + (is_study ? "study" : "command") +
                                 plumbline::nearest_names(given, known));
   }
+}
+
+/// Puts the commands that are in no group yet into this one.
+void name_group(CLI::App& app, const std::string& name) {
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    if (command->get_group() == "Subcommands") {
+      command->group(name);
+    }
+  }
+}
+
+/// In the order of their use, which is the order of the help.
+void add_commands(CLI::App& app, const std::vector<std::string>& words, plumbline::cli::Outcome& outcome) {
+  plumbline::cli::add_check(app, outcome);
+  plumbline::cli::add_new_model(app, outcome);
+  plumbline::cli::add_new_trial(app, outcome);
+  plumbline::cli::add_compare(app, outcome);
+  plumbline::cli::add_diagnose(app, outcome);
+  plumbline::cli::add_effects(app, outcome);
+  plumbline::cli::add_add(app, outcome);
+  plumbline::cli::add_fit(app, outcome);
+  plumbline::cli::add_ladder(app, outcome);
+  plumbline::cli::add_report(app, words);
+  plumbline::cli::add_export(app, outcome);
+  plumbline::cli::add_suggest(app, outcome);
+  plumbline::cli::add_twin(app, outcome);
+  plumbline::cli::add_simulate(app, outcome);
+  plumbline::cli::add_render(app, outcome);
+  name_group(app, "A model and its measurements");
+  plumbline::cli::add_validate(app, outcome);
+  plumbline::cli::add_tune(app, outcome);
+  plumbline::cli::add_certify(app, outcome);
+  plumbline::cli::add_key(app, outcome);
+  plumbline::cli::add_verify(app, outcome);
+  plumbline::cli::add_robot(app, outcome);
+  name_group(app, "A controller, from the published gait to the robot");
+  CLI::App* study =
+      app.add_subcommand("study", "What single papers did: a gait's design, steps down, spring-mass running");
+  study->require_subcommand(1);
+  plumbline::cli::add_gait(*study, outcome);
+  plumbline::cli::add_step_down(*study);
+  plumbline::cli::add_running(*study, outcome);
+  plumbline::cli::add_spring_mass(*study, outcome);
+  name_group(app, "Studies of single papers");
+}
+
+/// CLI11 takes the words from the last to the first, without the program's name.
+void parse(CLI::App& app, const std::vector<std::string>& words) {
+  app.name(words.front());
+  app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   plumbline::cli::Outcome outcome;
+  const std::vector<std::string> words = command_words(argc, argv);
   CLI::App app{"plumbline: hold a robot's model against its measurements and learn which physics is missing"};
   app.require_subcommand(1);
   app.set_version_flag("--version", PLUMBLINE_VERSION);
   plumbline::cli::catch_interrupts();
   try {
-    plumbline::cli::add_effects(app, outcome);
-    plumbline::cli::add_check(app, outcome);
-    plumbline::cli::add_simulate(app, outcome);
-    plumbline::cli::add_validate(app, outcome);
-    plumbline::cli::add_tune(app, outcome);
-    plumbline::cli::add_compare(app, outcome);
-    plumbline::cli::add_fit(app, outcome);
-    plumbline::cli::add_diagnose(app, outcome);
-    plumbline::cli::add_add(app, outcome);
-    plumbline::cli::add_ladder(app, outcome);
-    plumbline::cli::add_report(app, command_words(argc, argv));
-    plumbline::cli::add_suggest(app, outcome);
-    plumbline::cli::add_new_trial(app, outcome);
-    plumbline::cli::add_new_model(app, outcome);
-    plumbline::cli::add_export(app, outcome);
-    plumbline::cli::add_twin(app, outcome);
-    plumbline::cli::add_render(app, outcome);
-    plumbline::cli::add_spring_mass(app, outcome);
-    plumbline::cli::add_certify(app, outcome);
-    plumbline::cli::add_verify(app, outcome);
-    plumbline::cli::add_key(app, outcome);
-    plumbline::cli::add_robot(app, outcome);
-    plumbline::cli::add_gait(app, outcome);
-    plumbline::cli::add_step_down(app);
-    plumbline::cli::add_running(app, outcome);
-    refuse_unknown_command(app, argc, argv);
-    app.parse(argc, argv);
+    add_commands(app, words, outcome);
+    refuse_unknown_command(app, words);
+    parse(app, words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       return app.exit(error);  // --help, --version
