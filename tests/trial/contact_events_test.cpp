@@ -85,7 +85,7 @@ class SwitchedTrial : public ScratchFolder {
   void SetUp() override {
     ScratchFolder::SetUp();
     hopper = robot;
-    hopper.feet = {{"toe", 0, Eigen::Vector3d::Zero(), ""}};
+    hopper.feet = {{"toe", 0, Eigen::Vector3d::Zero(), "", 0.0, ""}};
     hopper.switches = {{"sole", 0, ""}};
   }
   Trial read(const std::string& measured, double closed) const {

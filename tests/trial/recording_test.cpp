@@ -13,7 +13,7 @@ model::Model robot_on_a_plate() {
   model::Model robot;
   robot.file = "robot.yaml";
   robot.coordinates = {{"height", false, {{"rail", 1.0}}}};
-  robot.feet = {{"toe", 0, Eigen::Vector3d::Zero(), ""}};
+  robot.feet = {{"toe", 0, Eigen::Vector3d::Zero(), "", 0.0, ""}};
   robot.sensors = {{"plate", "", 1.0, 0, 0, "", {0}}};
   robot.switches = {{"touch", 0, ""}};
   return robot;

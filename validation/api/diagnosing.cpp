@@ -44,8 +44,7 @@ void add_up(const effects::Values& values, const effects::Values& deviations, mo
   deviation = std::isfinite(deviation) ? std::hypot(deviation, deviations.front()) : deviations.front();
 }
 
-/// What the torques name comes first. Where the error is still so large that predictions say little, nothing
-/// more is named.
+/// What the torques name comes first; predictions go on from there. An interruption keeps what is named.
 Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effects::Catalogue& catalogue,
                     const validation::Policy& options, const validation::Progress& progress) {
   if (!torques.stage || torques.stage->named.empty()) {
@@ -55,11 +54,9 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   if (diagnosis.accepted.empty()) {
     return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   }
-  if (diagnosis.ladder.back().train() <= options.hopeless) {
-    const model::Model model = identified_model(*torques.stage, diagnosis.accepted.size());
-    join(validation::diagnose(model, catalogue, *loaded.data, options, progress), *loaded.data, options,
-         diagnosis);
-  }
+  const model::Model model = identified_model(*torques.stage, diagnosis.accepted.size());
+  join(validation::diagnose(model, catalogue, *loaded.data, options, progress), *loaded.data, options,
+       diagnosis);
   return diagnosis;
 }
 
