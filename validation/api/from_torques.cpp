@@ -6,6 +6,7 @@
 #include "simulator/trace/error.h"
 #include "validation/compare/compare.h"
 #include "validation/diagnose/finish.h"
+#include "validation/diagnose/found_values.h"
 #include "validation/diagnose/rescore.h"
 #include "validation/predict/lost_windows.h"
 
@@ -103,6 +104,24 @@ void keep_what_predicts(const Data& data, const Policy& policy, Diagnosis& diagn
   diagnosis.final_stage = diagnosis.ladder.back().stage;
 }
 
+/// A named effect's values as windows have fitted them anew, where they moved them.
+void take_values(const Diagnosis& further, Finding& finding) {
+  const model::Model model = validation::fitted_model(further.final_stage);
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const model::EffectUse& use = model.effects[e];
+    if (use.at != finding.at || use.law->declaration().name != finding.effect) {
+      continue;
+    }
+    for (validation::ParameterValue& value : finding.parameters) {
+      const int index = use.law->parameter_index(value.name);
+      value.value = use.values[static_cast<std::size_t>(index)].value;
+      const double deviation = validation::found_deviation(further, {static_cast<int>(e), index});
+      value.deviation = std::isfinite(deviation) ? deviation : value.deviation;
+    }
+    return;
+  }
+}
+
 }  // namespace
 
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
@@ -163,6 +182,9 @@ void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& 
   if (further.ladder.empty()) {
     first.interrupted = further.interrupted;
     return;
+  }
+  for (Finding& finding : first.accepted) {
+    take_values(further, finding);
   }
   const auto before = static_cast<int>(first.ladder.size()) - 1;  // "as given" there is the last rung here
   for (Finding& finding : further.accepted) {
