@@ -20,9 +20,9 @@ struct FromTorques {
   std::optional<validation::TorqueStage> stage;
 };
 
-/// Standard identification where the train error is above Policy::finished, and torque_stage(), with its
-/// frequency, where it is above Policy::hopeless: so far from the measurements what a window predicts says
-/// little of what is missing. Nothing where the torques cannot be asked (TorqueProblem).
+/// Standard identification, and torque_stage() with its frequency, where the train error is above five times
+/// Policy::hopeless: so far from the measurements what a window predicts says little of what is missing.
+/// Nothing where the torques cannot be asked (TorqueProblem).
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue,
                         const validation::Data& data, const validation::Policy& policy,
                         const validation::Progress& progress);
