@@ -22,7 +22,7 @@ struct FromTorques {
 
 /// Standard identification, and torque_stage() with its frequency, where the train error is above five times
 /// Policy::hopeless: so far from the measurements what a window predicts says little of what is missing.
-/// Nothing where the torques cannot be asked (TorqueProblem).
+/// Nothing for a single motor, and where the torques cannot be asked (TorqueProblem).
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue,
                         const validation::Data& data, const validation::Policy& policy,
                         const validation::Progress& progress);
