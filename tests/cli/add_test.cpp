@@ -55,6 +55,17 @@ TEST_F(Add, StandsOnAnOverlay) {
   EXPECT_EQ(read_json("model.json")["lineage"].size(), 3U);
 }
 
+TEST_F(Add, TakesSeveralEffectsInOneCall) {
+  succeed({"add", "coulomb@drive:level=0.25", "torque_bias@drive", "--model", "robot/model.yaml", "--out",
+           "two.yaml", "--json", "add.json"});
+  succeed({"check", "two.yaml", "--json", "model.json"});
+  const json effects = read_json("model.json")["effects"];
+  ASSERT_EQ(effects.size(), 3U);
+  EXPECT_EQ(effects[1]["values"]["level"]["value"], 0.25);
+  EXPECT_EQ(effects[2]["effect"], "torque_bias");
+  EXPECT_EQ(read_json("add.json")["effects"].size(), 2U);
+}
+
 TEST_F(Add, ThenFitFindsWhatWasHidden) {
   succeed({"add", "coulomb", "--at", "drive", "--trial", "trials/steps", "--set", "smoothing_speed=0.5",
            "--out", "new.yaml"});

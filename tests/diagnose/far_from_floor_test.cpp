@@ -12,7 +12,7 @@
 #include "tests/diagnose/bench.h"
 #include "tests/predict/hopper.h"
 #include "validation/diagnose/family.h"
-#include "validation/diagnose/friction_everywhere.h"
+#include "validation/diagnose/standard_effects.h"
 #include "validation/diagnose/objection.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/predict/lost_windows.h"
@@ -53,7 +53,7 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
   const Policy policy;
   const Tried tried =
       try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, policy, silent);
-  const std::optional<Group> group = friction_everywhere(tried, data, policy, silent);
+  const std::optional<Group> group = standard_effects(tried, data, policy, silent);
   ASSERT_TRUE(group);
   std::vector<std::string> labels;
   for (const Candidate& candidate : group->candidates) {
@@ -70,11 +70,11 @@ TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
   const Tried both =
       screen_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, silent);
   ASSERT_TRUE(both.refits.empty());
-  const std::optional<Group> group = friction_everywhere(both, data, policy, silent);
+  const std::optional<Group> group = standard_effects(both, data, policy, silent);
   ASSERT_TRUE(group);
   EXPECT_LT(group->stage.estimate.scores.train, 1.1);
   const Data one = bench_twins({"coulomb@mLA:level=0.05"}).thinned(8);
-  EXPECT_FALSE(friction_everywhere(
+  EXPECT_FALSE(standard_effects(
       screen_candidates(as_given(bench(), one), some_laws({"coulomb", "viscous"}), {}, one, silent), one,
       policy, silent));
 }
@@ -154,7 +154,7 @@ TEST(FrictionEverywhere, IsNothingWhereOneIsEnough) {
   const Policy policy;
   const Tried tried =
       try_candidates(as_given(bench(), data), some_laws({"coulomb", "viscous"}), {}, data, policy, silent);
-  EXPECT_FALSE(friction_everywhere(tried, data, policy, silent));
+  EXPECT_FALSE(standard_effects(tried, data, policy, silent));
 }
 
 // Stated within 50 %, a rotor's inertia might be searched down to -50 %: a tenth of it is always there.

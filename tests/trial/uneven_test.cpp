@@ -134,6 +134,22 @@ TEST_F(Uneven, ARowThatComesTwiceInAHundredIsLeftOut) {
   EXPECT_NE(trial.remarks[0].find("1 rows whose time is not above"), std::string::npos) << trial.remarks[0];
 }
 
+TEST_F(Uneven, RowsWhoseTimeCannotBeAreLeftOutWhereThatIsAllowed) {
+  std::vector<double> times = even_times(0.01, 101);
+  for (const int row : {90, 60, 30, 12}) {
+    times.insert(times.begin() + row, times[static_cast<std::size_t>(row) - 1]);
+  }
+  times.insert(times.begin() + 50, 2.7e154);
+  times.push_back(1e9);
+  EXPECT_THROW(read(log_at(times)), InputError);
+  const Trial trial = read(log_at(times), "unit: s}", "unit: s}\nrows: {bad: leave_out}");
+  EXPECT_EQ(trial.samples(), 101);
+  EXPECT_LT(error(trial), 1e-12);
+  ASSERT_EQ(trial.remarks.size(), 1U);
+  EXPECT_EQ(trial.remarks[0].find("Left out: 6 rows"), 0U) << trial.remarks[0];
+  EXPECT_THROW(read(log_at(times), "unit: s}", "unit: s}\nrows: {bad: ignore}"), InputError);
+}
+
 TEST_F(Uneven, SectionsAndWhatIsLeftOutMakeStretches) {
   const std::string sections =
       "section: [{from: {value: 0.1, unit: s}, to: {value: 0.5, unit: s}}, {from: {value: 0.6, unit: s}, to: "

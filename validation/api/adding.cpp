@@ -4,6 +4,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
 #include "validation/fit/scales.h"
 #include "validation/report/json_number.h"
 #include "validation/report/model_json.h"
@@ -27,6 +28,25 @@ bool is_set(const Addition& addition, const std::string& parameter) {
   return std::any_of(addition.set.begin(), addition.set.end(), [&](const std::string& setting) {
     return setting.compare(0, parameter.size() + 1, parameter + "=") == 0;
   });
+}
+
+Addition addition_of(const std::string& text, const std::string& at, const std::vector<std::string>& set) {
+  const std::size_t sign = text.find('@');
+  if ((sign == std::string::npos) == at.empty()) {
+    throw InputError({"", 0, text}, at.empty() ? "an effect without a place" : "two places",
+                     "EFFECT@PLACE, or one EFFECT and --at");
+  }
+  if (sign == std::string::npos) {
+    return {text, at, set};
+  }
+  const std::size_t colon = text.find(':', sign);
+  Addition addition{text.substr(0, sign), text.substr(sign + 1, colon - sign - 1), set};
+  for (std::size_t from = colon; from != std::string::npos;) {
+    const std::size_t to = text.find(',', from + 1);
+    addition.set.push_back(text.substr(from + 1, to - from - 1));
+    from = to;
+  }
+  return addition;
 }
 
 model::EffectUse added_effect(const Addition& addition, const model::Model& model,
@@ -64,9 +84,15 @@ nlohmann::json to_json(const model::EffectUse& use, const model::Model& model, c
   return json;
 }
 
-void save(const model::EffectUse& use, const model::Model& model, const std::string& file) {
-  model::write_overlay(file, model.file, {{use.law->declaration().name, use.at, use.numbers()}}, {},
-                       use.label() + ", added with start values", model::known_effects());
+void save(const std::vector<model::EffectUse>& uses, const model::Model& model, const std::string& file) {
+  std::vector<model::AddedEffect> added;
+  std::string names;
+  for (const model::EffectUse& use : uses) {
+    added.push_back({use.law->declaration().name, use.at, use.numbers()});
+    names += (names.empty() ? "" : ", ") + use.label();
+  }
+  model::write_overlay(file, model.file, added, {}, names + ", added with start values",
+                       model::known_effects());
 }
 
 }  // namespace plumbline::api

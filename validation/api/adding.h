@@ -23,12 +23,16 @@ struct Addition {
 model::EffectUse added_effect(const Addition& addition, const model::Model& model,
                               const std::optional<validation::Trial>& trial);
 
+/// From "EFFECT" with its place beside it, or "EFFECT@PLACE:PARAMETER=VALUE,...". Throws InputError where
+/// both or neither name the place.
+Addition addition_of(const std::string& text, const std::string& at, const std::vector<std::string>& set);
+
 bool is_set(const Addition& addition, const std::string& parameter);
 
 /// docs/formats/json.md, `add`, but for the name of the file.
 nlohmann::json to_json(const model::EffectUse& use, const model::Model& model, const Addition& addition);
 
-/// An overlay on the model's file.
-void save(const model::EffectUse& use, const model::Model& model, const std::string& file);
+/// An overlay on the model's file with all of them.
+void save(const std::vector<model::EffectUse>& uses, const model::Model& model, const std::string& file);
 
 }  // namespace plumbline::api

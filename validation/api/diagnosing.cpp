@@ -60,6 +60,61 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   return diagnosis;
 }
 
+double counts(const validation::Scores& scores, const Loaded& loaded) {
+  return loaded.data->has(validation::Role::held_out) ? scores.held_out : scores.train;
+}
+
+/// The better of two, by what counts.
+void take_better(std::optional<validation::WindowsFit> other, const Loaded& loaded,
+                 std::optional<validation::WindowsFit>& best) {
+  if (other && (!best || counts(other->scores, loaded) < counts(best->scores, loaded))) {
+    best = std::move(other);
+  }
+}
+
+/// Standard identification beside an answer that leaves more than the floor, alone and with what was named,
+/// so that no answer is worse than it. Both ways of it: by the torques, and by windows from there.
+void hold_against_standard(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
+                           const validation::Progress& progress, Answer& answer) {
+  const validation::Scores& found = answer.diagnosis.ladder.back().scores();
+  if (std::max(found.train, counts(found, loaded)) < policy.finished) {
+    return;
+  }
+  const std::optional<validation::StandardFit> by_torques =
+      torques.standard ? torques.standard : torque_identification(loaded.model, *loaded.data, progress);
+  const validation::FreeModel* start = by_torques ? &by_torques->free : nullptr;
+  const auto fit = [&](const model::Model& model) {
+    return validation::standard_by_windows(model, start, *loaded.data, policy.windows, progress);
+  };
+  std::optional<validation::WindowsFit> alone = fit(loaded.model);
+  if (by_torques) {
+    take_better(validation::as_windows_fit(by_torques->free, by_torques->after), loaded, alone);
+  }
+  if (alone) {
+    answer.standard = StandardRung{alone->scores, alone->values, alone->at_limits};
+  }
+  std::optional<validation::WindowsFit> both;
+  if (!answer.diagnosis.accepted.empty()) {
+    both = fit(validation::fitted_model(answer.diagnosis.final_stage));
+  }
+  const bool is_both = both && (!alone || counts(both->scores, loaded) <
+                                              (1.0 + policy.simpler) * counts(alone->scores, loaded));
+  std::optional<validation::WindowsFit>& best = is_both ? both : alone;
+  if (best && counts(best->scores, loaded) < (1.0 - policy.material) * counts(found, loaded)) {
+    answer.best = BestModel{std::move(*best), is_both};
+  }
+}
+
+/// The diagnosis with the best model found as its last stage.
+Diagnosis with_best(const Answer& answer) {
+  Diagnosis diagnosis = answer.diagnosis;
+  if (answer.best) {
+    diagnosis.final_stage = answer.best->fit.stage;
+    diagnosis.precision = answer.best->fit.precision;
+  }
+  return diagnosis;
+}
+
 }  // namespace
 
 Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
@@ -67,14 +122,16 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
   Answer answer;
   try {
     const FromTorques torques = ask_torques(loaded.model, catalogue, *loaded.data, options, progress);
-    answer.standard = torques.standard;
     answer.diagnosis = diagnosed(torques, loaded, catalogue, options, progress);
     if (torques.stage) {
       answer.torque_cutoff = torques.stage->cutoff;
       answer.open = torques.stage->open;
     }
+    if (!answer.diagnosis.interrupted && !answer.diagnosis.ladder.empty()) {
+      hold_against_standard(loaded, torques, options, progress, answer);
+    }
   } catch (const validation::Stopped&) {
-    answer.diagnosis.interrupted = true;
+    answer.diagnosis.interrupted = true;  // what is finished stands
   }
   const Diagnosis& diagnosis = answer.diagnosis;
   if (!diagnosis.interrupted && !diagnosis.ladder.empty() &&
@@ -84,7 +141,34 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
   return answer;
 }
 
-nlohmann::json to_json(const Answer& answer) { return validation::to_json(answer.diagnosis, answer.left); }
+nlohmann::json to_json(const Answer& answer) {
+  nlohmann::json json = validation::to_json(answer.diagnosis, answer.left);
+  const auto errors = [](const validation::Scores& scores) {
+    return nlohmann::json{{"train", scores.train}, {"held_out", scores.held_out}};
+  };
+  json["standard"] = nullptr;
+  if (answer.standard) {
+    json["standard"] = errors(answer.standard->scores);
+    json["standard"]["values"] = answer.standard->values;
+    json["standard"]["at_limits"] = answer.standard->at_limits;
+  }
+  json["best_model"] = nullptr;
+  if (answer.best) {
+    json["best_model"] = errors(answer.best->fit.scores);
+    json["best_model"]["with_named_effects"] = answer.best->with_named;
+    json["best_model"]["values"] = answer.best->fit.values;
+    json["best_model"]["at_limits"] = answer.best->fit.at_limits;
+  }
+  json["open"] = nlohmann::json::array();
+  for (const validation::TorqueShare& one : answer.open) {
+    json["open"].push_back({{"effect", one.effect}, {"at", one.at}, {"share", one.share}});
+  }
+  return json;
+}
+
+void save(const Answer& answer, const model::Model& given, const std::string& file) {
+  save(with_best(answer), given, file);
+}
 
 void save(const Diagnosis& diagnosis, const model::Model& given, const std::string& file) {
   std::vector<model::AddedEffect> added;

@@ -9,13 +9,28 @@
 #include "validation/api/loading.h"
 #include "validation/diagnose/diagnose.h"
 #include "validation/diagnose/unexplained.h"
+#include "validation/standard/standard_windows.h"
 
 namespace plumbline::api {
+
+/// Standard identification beside a diagnosis, so that no answer is taken for more than it is.
+struct StandardRung {
+  validation::Scores scores;  ///< floor units
+  int values = 0, at_limits = 0;
+};
+
+/// The model that predicts the held-out trials best, where it is not what the diagnosis alone has led to:
+/// with everything beside it that standard identification frees.
+struct BestModel {
+  validation::WindowsFit fit;
+  bool with_named = false;  ///< what was named is in it; false: it needs nothing beyond what was given
+};
 
 struct Answer {
   validation::Diagnosis diagnosis;
   std::vector<validation::UnexplainedForce> left;  ///< empty when little is left or the work was stopped
-  std::optional<StandardRung> standard;            ///< empty: at the floor, or the torques cannot be asked
+  std::optional<StandardRung> standard;            ///< empty: at the floor, or it cannot be done
+  std::optional<BestModel> best;                   ///< empty: the final stage of the diagnosis
   std::vector<validation::TorqueShare> open;       ///< what the torques ask for and cannot tell apart
   double torque_cutoff = 0.0;  ///< Hz: below which torques were compared; 0: they were not
 };
@@ -26,9 +41,11 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
 /// docs/formats/json-results.md, `diagnose`.
 nlohmann::json to_json(const Answer& answer);
 
-/// The accepted effects and the model's own numbers that moved, as an overlay on the model that was given. A
-/// mass or an inertia that was named beside a number of the model that stated an uncertainty is one number
-/// with it.
+/// The best model found, as an overlay on the model that was given: the accepted effects, the model's own
+/// numbers that moved, and what standard identification has moved where it is in it. A mass or an inertia
+/// that was named beside a number of the model that stated an uncertainty is one number with it.
+void save(const Answer& answer, const model::Model& given, const std::string& file);
+/// The same of the diagnosis' last stage.
 void save(const validation::Diagnosis& diagnosis, const model::Model& given, const std::string& file);
 
 }  // namespace plumbline::api

@@ -124,6 +124,15 @@ void take_values(const Diagnosis& further, Finding& finding) {
 
 }  // namespace
 
+std::optional<validation::StandardFit> torque_identification(const model::Model& model, const Data& data,
+                                                             const Progress& progress) {
+  try {
+    return validation::standard_fit(model, data, {}, progress);
+  } catch (const InputError&) {
+    return {};  // hidden states, feet on the ground, a floating base, or positions that no sensor shows
+  }
+}
+
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                         const Policy& policy, const Progress& progress) {
   FromTorques answer;
@@ -137,12 +146,10 @@ FromTorques ask_torques(const model::Model& model, const effects::Catalogue& cat
   if (given <= kFarther * policy.hopeless) {
     return answer;
   }
-  try {
-    const validation::StandardFit fit = validation::standard_fit(model, data, {}, progress);
-    answer.standard = StandardRung{fit.after, static_cast<int>(fit.free.values.size()), fit.at_limits()};
-    answer.stage = validation::torque_stage(model, catalogue, data, fit.cutoff, policy, progress);
-  } catch (const InputError&) {
-    return answer;  // hidden states, feet on the ground, or positions that no sensor shows
+  answer.standard = torque_identification(model, data, progress);
+  if (answer.standard) {
+    answer.stage =
+        validation::torque_stage(model, catalogue, data, answer.standard->cutoff, policy, progress);
   }
   return answer;
 }

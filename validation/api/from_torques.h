@@ -9,16 +9,15 @@
 
 namespace plumbline::api {
 
-/// Standard identification beside a diagnosis, so that no answer is taken for more than it is.
-struct StandardRung {
-  validation::Scores scores;  ///< floor units
-  int values = 0, at_limits = 0;
-};
-
 struct FromTorques {
-  std::optional<StandardRung> standard;  ///< empty: the torques cannot be asked
+  std::optional<validation::StandardFit> standard;  ///< empty: not asked, or the torques cannot be
   std::optional<validation::TorqueStage> stage;
 };
+
+/// Standard identification by the torques; empty where they cannot be asked (TorqueProblem).
+std::optional<validation::StandardFit> torque_identification(const model::Model& model,
+                                                             const validation::Data& data,
+                                                             const validation::Progress& progress);
 
 /// Standard identification, and torque_stage() with its frequency, where the train error is above five times
 /// Policy::hopeless: so far from the measurements what a window predicts says little of what is missing.

@@ -12,8 +12,15 @@
 namespace plumbline::cli {
 namespace {
 
-struct Options : api::Addition {
-  std::string model, trial, data_folder, out, json;
+struct Options {
+  std::vector<std::string> effects, set;
+  std::string at, model, trial, data_folder, out, json;
+};
+
+/// An effect as it was asked for, and as it is added.
+struct Added {
+  api::Addition asked;
+  model::EffectUse use;
 };
 
 /// Nothing that the overlay would stand on may be replaced by it.
@@ -23,20 +30,20 @@ std::vector<std::string> read_files(const model::Model& model) {
   return files;
 }
 
-void print(const model::EffectUse& use, const model::Model& model, const Options& options) {
+void print(const Added& added, const model::Model& model, const Options& options) {
+  const model::EffectUse& use = added.use;
   fmt::print("{}: {} on {}\n\n", options.out, use.label(), model.file);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t p = 0; p < use.values.size(); ++p) {
     const effects::Parameter& parameter = use.law->declaration().parameters[p];
-    rows.push_back(
-        {parameter.name, fmt::format("{:g}", use.values[p].value), validation::unit_of(model, use, p),
-         api::is_set(options, parameter.name) ? "set" : "start", parameter.structural ? "never fitted" : ""});
+    rows.push_back({parameter.name, fmt::format("{:g}", use.values[p].value),
+                    validation::unit_of(model, use, p),
+                    api::is_set(added.asked, parameter.name) ? "set" : "start",
+                    parameter.structural ? "never fitted" : ""});
   }
   print_table({"parameter", "value", "unit", "from", ""}, rows);
-  fmt::print("\n{}\nFit it: plumbline fit TRIAL... --model {} --free '{}@{}:*'\n",
-             use.law->is_null(use.numbers().data()) ? "With these values it changes nothing yet."
-                                                    : "These values already change the model.",
-             options.out, options.effect, options.at);
+  fmt::print("\n{}\n\n", use.law->is_null(use.numbers().data()) ? "With these values it changes nothing yet."
+                                                                : "These values already change the model.");
 }
 
 void run(const Options& options) {
@@ -49,12 +56,26 @@ void run(const Options& options) {
   if (!options.trial.empty()) {
     trial = validation::read_trial(options.trial, model, {options.data_folder});
   }
-  const model::EffectUse use = api::added_effect(options, model, trial);
-  api::save(use, model, options.out);
-  nlohmann::json json = api::to_json(use, model, options);
+  std::vector<Added> all;
+  std::vector<model::EffectUse> uses;
+  nlohmann::json list = nlohmann::json::array();
+  for (const std::string& effect : options.effects) {
+    const api::Addition asked = api::addition_of(effect, options.at, options.set);
+    all.push_back({asked, api::added_effect(asked, model, trial)});
+    uses.push_back(all.back().use);
+    list.push_back(api::to_json(uses.back(), model, asked));
+  }
+  api::save(uses, model, options.out);
+  nlohmann::json json =
+      all.size() == 1 ? list.front() : nlohmann::json{{"base", model.file}, {"effects", list}};
   json["file"] = options.out;
   write_json(json, options.json);
-  print(use, model, options);
+  std::string free;
+  for (const Added& one : all) {
+    print(one, model, options);
+    free += fmt::format("{}'{}@{}:*'", free.empty() ? "" : " ", one.asked.effect, one.asked.at);
+  }
+  fmt::print("Fit: plumbline fit TRIAL... --model {} --free {}\n", options.out, free);
 }
 
 }  // namespace
@@ -62,13 +83,17 @@ void run(const Options& options) {
 void add_add(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("add", "A new model file: a model with one effect more, ready to be fitted");
-  command->add_option("effect", options->effect, "name from `plumbline effects`")
+      app.add_subcommand("add", "A new model file: a model with further effects, ready to be fitted");
+  command
+      ->add_option("effects", options->effects,
+                   "names from `plumbline effects`; several as EFFECT@PLACE or EFFECT@PLACE:PARAM=VALUE,...")
       ->required()
       ->type_name("EFFECT");
-  command->add_option("--at", options->at, "coordinate, motor, ratio, body, sensor, foot, or world")
-      ->required()
-      ->type_name("WHERE");
+  CLI::Option* at =
+      command
+          ->add_option("--at", options->at,
+                       "where one EFFECT sits: coordinate, motor, ratio, body, sensor, foot, or world")
+          ->type_name("WHERE");
   CLI::Option_group* base = command->add_option_group("base", "the model that it is added to");
   base->add_option("--model", options->model, "model file")->type_name("FILE");
   base->add_option("--trial", options->trial,
@@ -80,11 +105,13 @@ void add_add(CLI::App& app, Outcome& /*outcome*/) {
   command
       ->add_option("--set", options->set,
                    "value of a parameter, SI units of the place; may be given several times")
-      ->type_name("PARAM=VALUE");
+      ->type_name("PARAM=VALUE")
+      ->needs(at);
   command->add_option("-o,--out", options->out, "the new model file")->required()->type_name("FILE");
   add_json_option(*command, options->json);
   command->footer(
-      "Example:\n  plumbline add coulomb --at mLA --model robots/mabel/leg_bench.yaml -o new.yaml");
+      "Example:\n  plumbline add coulomb --at mLA --model robots/mabel/leg_bench.yaml -o new.yaml\n"
+      "  plumbline add coulomb@mLA viscous@mLS:damping=0.01 --model robots/mabel/leg_bench.yaml -o new.yaml");
   command->callback([options] { run(*options); });
 }
 

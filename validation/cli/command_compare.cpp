@@ -103,6 +103,35 @@ void print_switches(const std::vector<validation::SwitchTiming>& switches) {
   }
 }
 
+/// "velocity jumps by -0.8 m/s (-5 N s)".
+std::string jump_text(const validation::Defect& one) {
+  if (!one.is_speed) {
+    return fmt::format("position jumps by {:+.3g} {}", one.jump, one.unit);
+  }
+  const bool angular = one.unit == "rad/s";
+  return fmt::format("velocity jumps by {:+.3g} {} ({:+.3g} {})", one.jump, one.unit, one.impulse,
+                     angular ? "N m s" : "N s");
+}
+
+void print_defects(const std::vector<validation::Defect>& defects) {
+  constexpr std::size_t kShown = 8;
+  if (defects.empty()) {
+    return;
+  }
+  fmt::print(
+      "\nWhere something happens that the model does not know: between segments of an eighth of a window, "
+      "each "
+      "predicted\nfrom its own start ({} of more than four deviations):\n\n",
+      defects.size());
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < std::min(kShown, defects.size()); ++i) {
+    const validation::Defect& one = defects[i];
+    rows.push_back({one.trial, fmt::format("{:.3f} s", one.time), one.at, jump_text(one),
+                    fmt::format("{:.1f}", one.deviations)});
+  }
+  print_table({"trial", "time", "at", "", "deviations"}, rows);
+}
+
 /// What is in none of the errors.
 void print_lost(const std::vector<validation::LostWindow>& lost) {
   constexpr std::size_t kShown = 5;
@@ -137,6 +166,7 @@ void print(const Comparison& comparison) {
   print_phases(comparison);
   print_horizons(comparison.horizons);
   print_switches(comparison.switches);
+  print_defects(comparison.defects);
   print_lost(comparison.lost);
   fmt::print(
       "\nError in units of the floor (1: what the sensors alone leave): train {:.3f}, held-out {:.3f}\n",

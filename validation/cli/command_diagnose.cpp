@@ -184,11 +184,20 @@ void print(const Diagnosis& diagnosis) {
 void print_torques(const api::Answer& answer) {
   if (answer.standard) {
     fmt::print(
-        "\nStandard identification (masses, centres of mass, inertias, gains, friction and offsets by least "
-        "squares of the\ntorques): train {:.3f}, held-out {:.3f}; {} of {} values at a limit. `plumbline fit "
-        "--standard` writes it.\n",
+        "\nStandard identification (masses, centres of mass, inertias, gains, friction and offsets at once): "
+        "train {:.3f}, held-out\n{:.3f}; {} of {} values at a limit.\n",
         answer.standard->scores.train, answer.standard->scores.held_out, answer.standard->at_limits,
         answer.standard->values);
+  }
+  if (answer.best) {
+    const validation::WindowsFit& best = answer.best->fit;
+    fmt::print(
+        "\nBest model found: {}: train {:.3f}, held-out {:.3f}.\nThis is what --save writes. Its {} values "
+        "may "
+        "make up for something that is in no law; they are no names.\n",
+        answer.best->with_named ? "what is named, with standard identification of all else"
+                                : "standard identification, which what is named adds nothing to",
+        best.scores.train, best.scores.held_out, best.values);
   }
   if (answer.torque_cutoff > 0.0) {
     fmt::print(
@@ -271,7 +280,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       fmt::print("\nThe same command goes on from the results in {}.\n", options->resume);
     }
     if (!options->save.empty() && !diagnosis.ladder.empty()) {
-      api::save(diagnosis, loaded.model, options->save);
+      api::save(answer, loaded.model, options->save);
     }
   });
 }

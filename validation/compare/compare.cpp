@@ -129,7 +129,9 @@ Comparison compare(const model::Model& model, const Data& data, const Estimate& 
 Comparison compare(const model::Model& model, const Data& data) { return compare_all(model, data, false); }
 
 Comparison compare_with_curves(const model::Model& model, const Data& data) {
-  return compare_all(model, data, true);
+  Comparison comparison = compare_all(model, data, true);
+  comparison.defects = defects(model, data);
+  return comparison;
 }
 
 }  // namespace plumbline::validation

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/compare/defects.h"
 #include "validation/compare/horizon.h"
 #include "validation/compare/phase_errors.h"
 #include "validation/compare/switch_timing.h"
@@ -36,6 +37,7 @@ struct Comparison {
   std::vector<SwitchTiming> switches;
   // Of compare_with_curves only:
   std::vector<HorizonError> horizons;
+  std::vector<Defect> defects;  ///< of the trials that are not of role test
   /// By trial, those of role test behind the others: samples x measured channels, SI; NaN where no window
   /// predicts.
   std::vector<Eigen::MatrixXd> predicted;

@@ -1,5 +1,7 @@
 #include "validation/diagnose/accept.h"
 
+#include <algorithm>
+
 #include "validation/diagnose/correlation.h"
 #include "validation/diagnose/findings.h"
 
@@ -66,8 +68,13 @@ void accept_group(const Tried& tried, const Group& group, const Data& data, Diag
   set_values(group.stage, data, accepted);
   diagnosis.final_stage = group.stage;
   diagnosis.accepted = accepted;
-  diagnosis.ladder.push_back({"+ friction at " + std::to_string(group.candidates.size()) + " places",
-                              group.stage, diagnosis.ladder.back().length});
+  const bool is_friction = std::all_of(
+      group.candidates.begin(), group.candidates.end(),
+      [](const Candidate& one) { return dynamic_cast<const effects::ForceLaw*>(one.law.get()) != nullptr; });
+  const std::string count = std::to_string(group.candidates.size());
+  diagnosis.ladder.push_back(
+      {is_friction ? "+ friction at " + count + " places" : "+ " + count + " effects of friction and drives",
+       group.stage, diagnosis.ladder.back().length});
 }
 
 void drop_accepted(Diagnosis& diagnosis) {

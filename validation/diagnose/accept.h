@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "validation/diagnose/choose.h"
-#include "validation/diagnose/friction_everywhere.h"
+#include "validation/diagnose/standard_effects.h"
 #include "validation/diagnose/look_ahead.h"
 
 namespace plumbline::validation {

@@ -37,9 +37,16 @@ bool is_of_family(const Refit& one, const Refit& other, const TiedPlaces& places
          are_of_one_family(effect(one), effect(other), places);
 }
 
+/// Better in nearly all of the resamples, and by more than the searches leave.
+bool is_surely_better(const Refit& other, const Refit& than, const Data& data, const Policy& policy) {
+  return other.square() < (1.0 - policy.same) * than.square() &&
+         share_better(other, than, data, policy) > 1.0 - policy.fair;
+}
+
 /// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them. Far
-/// above the floor a law of the same family at the same place with fewer fitted parameters is near for
-/// longer.
+/// above the floor, where parameters make up for what else is missing, a law with fewer of them is near
+/// unless the best is surely better (Breiman et al. 1984: the simplest within the error of the estimate of
+/// the error), and one of the same family at the same place for longer.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
                                    const TiedPlaces& places, const Policy& policy) {
@@ -50,8 +57,10 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
   const Refit& best = refits[contenders.front()];
   const bool is_far = !is_below(policy.far, best.estimate, data);
   for (const std::size_t i : contenders) {
-    const bool is_simpler = is_far && refits[i].own < best.own && is_of_family(refits[i], best, places);
-    if (together(refits[i]) < (1.0 + (is_simpler ? policy.simpler_far : policy.simpler)) * together(best)) {
+    const bool is_simpler = is_far && refits[i].own < best.own;
+    const bool is_contained = is_simpler && is_of_family(refits[i], best, places);
+    if (together(refits[i]) < (1.0 + (is_contained ? policy.simpler_far : policy.simpler)) * together(best) ||
+        (is_simpler && !is_surely_better(best, refits[i], data, policy))) {
       near.push_back(i);
     }
   }
@@ -121,12 +130,6 @@ std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std:
     contenders.erase(contenders.begin());
   }
   return contenders;
-}
-
-/// Better in nearly all of the resamples, and by more than the searches leave.
-bool is_surely_better(const Refit& other, const Refit& than, const Data& data, const Policy& policy) {
-  return other.square() < (1.0 - policy.same) * than.square() &&
-         share_better(other, than, data, policy) > 1.0 - policy.fair;
 }
 
 /// The first of those that could be named, simplest first, unless another one is surely better: of as many

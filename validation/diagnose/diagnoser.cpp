@@ -235,7 +235,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   // Far above the floor the commonest truth comes first: it may save the refits of all single effects.
   std::optional<Group> group;
   if (diagnosis.accepted.empty() && is_far) {
-    group = friction_everywhere(tried, data_, policy_, progress_);
+    group = standard_effects(tried, data_, policy_, progress_);
   }
   if (!group) {
     refit_candidates(data_, policy, progress_, tried);
@@ -244,7 +244,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, policy);
   diagnosis.candidates = std::max(diagnosis.candidates, static_cast<int>(tried.hypotheses.size()));
   if (!group && diagnosis.accepted.empty()) {
-    group = friction_everywhere(tried, data_, policy_, progress_);
+    group = standard_effects(tried, data_, policy_, progress_);
   }
   if (group) {
     accept_group(tried, *group, data_, diagnosis);

@@ -110,6 +110,9 @@ std::string no_inverse(const model::Plant& plant, const std::vector<int>& moving
            (moving.size() == 1 ? " motor" : " motors") + " that can move";
   }
   for (const int m : moving) {
+    if (m >= plant.motors()) {
+      continue;  // a joint without a motor needs none
+    }
     const std::string& name = plant.model().motors[static_cast<std::size_t>(m)].name;
     if (std::none_of(trial.commands.begin(), trial.commands.end(),
                      [&](const Command& command) { return command.motor == name; })) {

@@ -38,7 +38,8 @@ Eigen::MatrixXd motor_map(const model::Plant& plant);
 /// Rows of the map that are not zero.
 std::vector<int> moving_motors(const Eigen::MatrixXd& map);
 
-/// Why the motors' forces cannot be had from the motion; empty: they can.
+/// Why the forces at these places (motors; behind them joints without one) cannot be had from the motion;
+/// empty: they can.
 std::string no_inverse(const model::Plant& plant, const std::vector<int>& moving, const Trial& trial);
 
 }  // namespace plumbline::validation::measured

@@ -153,6 +153,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
               {"whole_trials", whole_json(content, data, progress)},
               {"published", published_json(content.given)},
               {"horizons", json::array()},
+              {"defects", json::array()},
               {"trials", json::array()},
               {"diagnosis", content.diagnosis},
               {"unexplained", json::array()},
@@ -169,6 +170,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
     report["drawn"].push_back(drawn_name(content, d == 0));
     report["unexplained"].push_back(forces_json(*drawn[d].stage, data));
     report["horizons"].push_back(horizons_json(*drawn[d].stage, data));
+    report["defects"].push_back(to_json(defects(fitted_model(*drawn[d].stage), data)));
   }
   for (std::size_t t = 0; t < data.trials.size(); ++t) {
     progress("drawing " + data.trials[t].name,

@@ -153,6 +153,22 @@ nlohmann::json to_json(const Comparison& comparison) {
   }
   if (!comparison.predicted.empty()) {
     json["horizons"] = to_json(comparison.horizons);
+    json["defects"] = to_json(comparison.defects);
+  }
+  return json;
+}
+
+nlohmann::json to_json(const std::vector<Defect>& defects) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Defect& one : defects) {
+    json.push_back({{"trial", one.trial},
+                    {"role", to_string(one.role)},
+                    {"time", one.time},
+                    {"at", one.at},
+                    {"unit", one.unit},
+                    {"jump", one.jump},
+                    {"impulse", one.is_speed ? nlohmann::json(one.impulse) : nlohmann::json()},
+                    {"deviations", json_number(one.deviations)}});
   }
   return json;
 }

@@ -13,6 +13,7 @@ namespace plumbline::validation {
 
 nlohmann::json to_json(const Comparison& comparison);
 nlohmann::json to_json(const std::vector<HorizonError>& errors);
+nlohmann::json to_json(const std::vector<Defect>& defects);
 nlohmann::json to_json(const UnexplainedForce& force);
 nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left);
 

@@ -54,6 +54,11 @@ class Freeing {
         motor(free_.model.motors[m], scales->second);
       }
     }
+    for (const auto& [at, scales] : scales_) {
+      if (free_.model.motor_index(at) < 0) {
+        passive_joint(at, scales);
+      }
+    }
     name();
     return std::move(free_);
   }
@@ -113,14 +118,26 @@ class Freeing {
           kInfinity});
     free(use_of("torque_bias", motor.name), "bias", {scales.torque, -kInfinity, kInfinity});
     friction("viscous", "damping", motor.name, scales.torque / scales.velocity, 2);
-    const int coulomb = friction("coulomb", "level", motor.name, scales.torque, 1);
-    if (coulomb >= static_cast<int>(free_.own)) {
-      model::EffectUse& use = free_.model.effects[static_cast<std::size_t>(coulomb)];
-      effects::Scales motion;
-      motion.velocity = scales.velocity;
-      use.values[static_cast<std::size_t>(use.law->parameter_index("smoothing_speed"))].value =
-          effects::smoothing_speed_for(motion);
+    smooth(friction("coulomb", "level", motor.name, scales.torque, 1), scales);
+  }
+
+  void passive_joint(const std::string& at, const MotorScales& scales) {
+    free(use_of("viscous", at), "damping", {scales.torque / scales.velocity, 0.0, kInfinity});
+    const int coulomb = use_of("coulomb", at);
+    free(coulomb, "level", {scales.torque, 0.0, kInfinity});
+    smooth(coulomb, scales);
+  }
+
+  /// An added dry friction fades below a small share of the speeds that were seen.
+  void smooth(int coulomb, const MotorScales& scales) {
+    if (coulomb < static_cast<int>(free_.own)) {
+      return;
     }
+    model::EffectUse& use = free_.model.effects[static_cast<std::size_t>(coulomb)];
+    effects::Scales motion;
+    motion.velocity = scales.velocity;
+    use.values[static_cast<std::size_t>(use.law->parameter_index("smoothing_speed"))].value =
+        effects::smoothing_speed_for(motion);
   }
 
   /// At the motor, or at a coordinate that it drives where the model has it there; `power` of the ratio by

@@ -10,7 +10,7 @@
 
 namespace plumbline::validation {
 
-/// Of one motor over the train trials; SI.
+/// Of one motor, or of a joint that moves without one, over the train trials; SI.
 struct MotorScales {
   double torque = 0.0;    ///< root mean square of the recorded one
   double velocity = 0.0;  ///< root mean square
@@ -44,7 +44,8 @@ struct FreeModel {
 /// Free are, where the model has such an effect its own value, else that of one more at the place:
 ///   added_mass, com_shift           of each body with a mass
 ///   rotor_inertia, torque_bias, torque_constant_error, viscous, coulomb      of each motor in `scales`;
-///                                   friction where the model has it already: at the motor or what it drives.
+///                                   friction where the model has it already: at the motor or what it drives;
+///   viscous, coulomb                of what else is in `scales`: joints without a motor.
 /// Spread: what the model states (mass, rotor inertia, torque constant, effects' values); else 10 % of the
 /// mass, the largest side of the link's box for its centre of mass, 20 % of the rotor inertia but a tenth of
 /// what the motor feels at least, 10 % of a torque constant, the rms torque for Coulomb friction and bias,

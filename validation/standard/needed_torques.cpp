@@ -15,7 +15,7 @@ constexpr double kEdgePeriods = 2.0;  // of the force cutoff
 [[noreturn]] void refuse(const Trial& trial, const std::string& why) {
   throw InputError(
       {trial.file, 0, "--standard"}, why,
-      "measured positions of everything that moves, and one motor with a recorded command for each");
+      "measured positions of everything that moves, and recorded commands of all motors that can move");
 }
 
 model::Model of_trial(const model::Model& model, const Trial& trial) {
@@ -50,6 +50,60 @@ double torque_scale(const model::Model& model, const std::string& motor) {
   return scale;
 }
 
+/// Rows of W and the places that they stand for: moving motors, then joints that no motor moves.
+struct Places {
+  std::vector<int> places;
+  Eigen::MatrixXd W;
+};
+
+Places places_of(const model::Model& model, const Trial& trial, const model::Plant& plant) {
+  const Eigen::MatrixXd motors = measured::motor_map(plant);
+  Places found{measured::moving_motors(motors), {}};
+  found.W = motors(found.places, Eigen::all);
+  const auto is_floating = [&](const std::string& name) {
+    return std::any_of(model.skeleton.joints.begin(), model.skeleton.joints.end(),
+                       [&](const model::Joint& joint) { return joint.floats && joint.name == name; });
+  };
+  for (std::size_t c = 0; c < model.coordinates.size() && found.W.rows() < plant.positions(); ++c) {
+    const std::string& name = model.coordinates[c].name;
+    if (is_floating(name)) {
+      refuse(trial, "a floating base, which no motor holds");
+    }
+    Eigen::MatrixXd more(found.W.rows() + 1, plant.positions());
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+    for (Eigen::Index i = 0; i < more.cols(); ++i) {
+      x[plant.positions() + i] = 1.0;
+      more(found.W.rows(), i) = plant.velocity_of(name, x.data());
+      x[plant.positions() + i] = 0.0;
+    }
+    more.topRows(found.W.rows()) = found.W;
+    if (Eigen::FullPivLU<Eigen::MatrixXd>(more).rank() == more.rows()) {
+      found.W = more;
+      found.places.push_back(static_cast<int>(model.motors.size() + c));
+    }
+  }
+  return found;
+}
+
+/// Mean inertia of each place over a few samples.
+Eigen::VectorXd mean_inertia(const model::Model& model, const MotionSamples& samples) {
+  constexpr std::size_t kLooks = 10;
+  const Trial& trial = *samples.trial;
+  model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
+  const Eigen::Index n = plant.positions();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  Eigen::VectorXd rate = x;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    const Eigen::Index k = samples.used[i * (samples.used.size() - 1) / (kLooks - 1)];
+    x.head(n) = samples.motion.z.col(k);
+    const Eigen::VectorXd command = samples.commands.col(k);
+    plant.rate(x.data(), command.data(), rate.data());
+    sum += (samples.to_places * plant.mass_matrix() * samples.to_places.transpose()).diagonal();
+  }
+  return sum / static_cast<double>(kLooks);
+}
+
 Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const MotionSamples& samples) {
   Eigen::MatrixXd result(rows.rows(), static_cast<Eigen::Index>(samples.used.size()));
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
@@ -62,26 +116,51 @@ Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const MotionSamples& sampl
 
 }  // namespace
 
+const std::string& place_name(const model::Model& model, int place) {
+  const auto index = static_cast<std::size_t>(place);
+  return index < model.motors.size() ? model.motors[index].name
+                                     : model.coordinates[index - model.motors.size()].name;
+}
+
+bool is_passive(const model::Model& model, int place) {
+  return static_cast<std::size_t>(place) >= model.motors.size();
+}
+
+int place_index(const model::Model& model, const std::string& name) {
+  const int motor = model.motor_index(name);
+  if (motor >= 0) {
+    return motor;
+  }
+  const auto found = std::find_if(model.coordinates.begin(), model.coordinates.end(),
+                                  [&](const model::Coordinate& one) { return one.name == name; });
+  return static_cast<int>(model.motors.size()) + static_cast<int>(found - model.coordinates.begin());
+}
+
+bool place_is_angular(const model::Model& model, int place) {
+  const auto index = static_cast<std::size_t>(place);
+  return index < model.motors.size() ? model.motors[index].angular
+                                     : model.coordinates[index - model.motors.size()].angular;
+}
+
 MotionSamples motion_samples(const model::Model& model, const Trial& trial, double motion_cutoff,
                              double force_cutoff) {
   MotionSamples samples;
   samples.trial = &trial;
   model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
-  const Eigen::MatrixXd map = measured::motor_map(plant);
-  samples.moving = measured::moving_motors(map);
+  if (plant.meets_ground()) {
+    refuse(trial, "feet on the ground, whose forces no motor makes");
+  }
+  const Places places = places_of(model, trial, plant);
+  samples.moving = places.places;
   const std::string reason = measured::no_inverse(plant, samples.moving, trial);
   if (!reason.empty()) {
     refuse(trial, reason);
   }
-  if (plant.meets_ground()) {
-    refuse(trial, "feet on the ground, whose forces no motor makes");
-  }
-  const Eigen::MatrixXd W = map(samples.moving, Eigen::all);
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(W.transpose());
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(places.W.transpose());
   if (!lu.isInvertible()) {
     refuse(trial, "motors that all move together");
   }
-  samples.to_motors = lu.inverse();
+  samples.to_places = lu.inverse();
   samples.cutoff = measured::bounded(force_cutoff, trial.period);
   const auto edge = static_cast<Eigen::Index>(std::ceil(kEdgePeriods / (samples.cutoff * trial.period)));
   samples.used = away_from_ends(trial, edge);
@@ -94,6 +173,7 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
   }
   samples.motion = measured::differentiated(std::move(z), trial.period);
   samples.commands = means(measured::arrived_commands(plant, trial));
+  samples.inertia = mean_inertia(model, samples);
   return samples;
 }
 
@@ -109,21 +189,30 @@ Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& sa
     x.segment(n, n) = samples.motion.v.col(k);
     const Eigen::VectorXd command = samples.commands.col(k);
     plant.rate(x.data(), command.data(), rate.data());
-    errors.col(k) =
-        samples.to_motors * (plant.mass_matrix() * (samples.motion.a.col(k) - rate.segment(n, n)));
+    const Eigen::MatrixXd& M = plant.mass_matrix();
+    errors.col(k) = samples.to_places * (M * (samples.motion.a.col(k) - rate.segment(n, n)));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (is_passive(model, samples.moving[static_cast<std::size_t>(i)])) {
+        errors(i, k) *=
+            samples.inertia[i] / samples.to_places.row(i).dot(M * samples.to_places.row(i).transpose());
+      }
+    }
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int motor = samples.moving[static_cast<std::size_t>(i)];
-    errors.row(i) /= torque_scale(model, model.motors[static_cast<std::size_t>(motor)].name);
+    errors.row(i) /= torque_scale(model, place_name(model, samples.moving[static_cast<std::size_t>(i)]));
   }
   return filtered(errors, samples);
 }
 
 Eigen::MatrixXd recorded_torques(const model::Model& model, const MotionSamples& samples) {
   const model::Plant plant(model, samples.trial->locks, samples.trial->terrain);
-  Eigen::MatrixXd torques = samples.commands(samples.moving, Eigen::all);
+  Eigen::MatrixXd torques =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(samples.moving.size()), samples.commands.cols());
   for (Eigen::Index i = 0; i < torques.rows(); ++i) {
-    torques.row(i) *= plant.torque_gain(samples.moving[static_cast<std::size_t>(i)]);
+    const int place = samples.moving[static_cast<std::size_t>(i)];
+    if (!is_passive(model, place)) {
+      torques.row(i) = plant.torque_gain(place) * samples.commands.row(place);
+    }
   }
   return filtered(torques, samples);
 }

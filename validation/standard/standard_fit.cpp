@@ -37,9 +37,9 @@ void fit_below(double cutoff, const model::Model& model, const Data& data, Stand
   const std::map<int, double> before = problem.rms(model);
   const std::map<int, double> after = problem.rms(found);
   for (const auto& [motor, rms] : before) {
-    const model::Motor& stated = model.motors[static_cast<std::size_t>(motor)];
-    fit.torques.push_back({stated.name, stated.angular ? "N m" : "N", problem.scales().at(stated.name).torque,
-                           rms, after.at(motor)});
+    const std::string& name = place_name(model, motor);
+    fit.torques.push_back({name, place_is_angular(model, motor) ? "N m" : "N",
+                           problem.scales().at(name).torque, rms, after.at(motor)});
   }
   fit.after = compare(found, data).scores;
 }

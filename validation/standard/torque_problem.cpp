@@ -44,13 +44,13 @@ std::vector<MotionSamples> samples_of(const model::Model& model, const Data& dat
   return all;
 }
 
-/// Inertia that each moving motor feels, mean over a few samples: 1 / (W M^-1 W')_mm.
+/// Inertia that each moving place feels, mean over a few samples: 1 / (W M^-1 W')_mm.
 Eigen::VectorXd felt_inertia(const model::Model& model, const MotionSamples& samples) {
   constexpr std::size_t kLooks = 10;
   const Trial& trial = *samples.trial;
   model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
   const Eigen::Index n = plant.positions();
-  const Eigen::MatrixXd W = samples.to_motors.inverse().transpose();
+  const Eigen::MatrixXd W = samples.to_places.inverse().transpose();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   Eigen::VectorXd rate = x;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
@@ -70,14 +70,17 @@ std::map<std::string, MotorScales> scales_of(const model::Model& model,
   std::map<std::string, double> counts;
   for (const MotionSamples& samples : all) {
     const Eigen::MatrixXd torques = recorded_torques(model, samples);
-    const Eigen::MatrixXd W = samples.to_motors.inverse().transpose();
+    const Eigen::MatrixXd W = samples.to_places.inverse().transpose();
     const Eigen::MatrixXd speeds = W * samples.motion.v(Eigen::all, samples.used);
+    const Eigen::MatrixXd rates = W * samples.motion.a(Eigen::all, samples.used);
     const Eigen::VectorXd inertia = felt_inertia(model, samples);
     for (Eigen::Index i = 0; i < torques.rows(); ++i) {
-      const auto motor = static_cast<std::size_t>(samples.moving[static_cast<std::size_t>(i)]);
-      const std::string& name = model.motors[motor].name;
+      const int place = samples.moving[static_cast<std::size_t>(i)];
+      const std::string& name = place_name(model, place);
       const auto count = static_cast<double>(torques.cols());
-      scales[name].torque += torques.row(i).squaredNorm();
+      // Where no motor acts: what moves the joint's own inertia as it was moved.
+      scales[name].torque +=
+          is_passive(model, place) ? (inertia[i] * rates.row(i)).squaredNorm() : torques.row(i).squaredNorm();
       scales[name].velocity += speeds.row(i).squaredNorm();
       scales[name].inertia += count * inertia[i];
       counts[name] += count;
@@ -87,8 +90,7 @@ std::map<std::string, MotorScales> scales_of(const model::Model& model,
     const double count = counts[name];
     one = {std::sqrt(one.torque / count), std::sqrt(one.velocity / count), one.inertia / count};
     if (!(one.torque > 0.0) || !(one.velocity > 0.0)) {
-      throw InputError("found a motor " + name +
-                       " without torque or motion in the train trials, expected both");
+      throw InputError("found " + name + " without torque or motion in the train trials, expected both");
     }
   }
   return scales;
@@ -136,7 +138,7 @@ void look_for_unseen(const ByMotor& equations, const model::Model& model,
     const auto k = static_cast<Eigen::Index>(i);
     double most = 0.0;
     for (const auto& [motor, sum] : equations) {
-      const double torque = scales.at(model.motors[static_cast<std::size_t>(motor)].name).torque;
+      const double torque = scales.at(place_name(model, motor)).torque;
       most = std::max(most, std::sqrt(sum.H(k, k) / sum.count) / torque);
     }
     values[i].seen = most > kUnseen;
@@ -198,7 +200,7 @@ std::map<int, double> least_errors(const model::Model& model,
   constexpr double kLeast = 1e-6;
   std::map<int, double> least;
   for (const auto& [name, one] : scales) {
-    least[model.motor_index(name)] = kLeast * one.torque;
+    least[place_index(model, name)] = kLeast * one.torque;
   }
   return least;
 }
@@ -268,8 +270,8 @@ TorqueBlocks TorqueProblem::blocks(const model::Model& model, double length) con
     of_trial.push_back(std::max<Eigen::Index>(1, std::lround(seconds / length)));
     count += of_trial.back();
   }
-  const auto motors = static_cast<Eigen::Index>(model.motors.size());
-  TorqueBlocks blocks{Eigen::MatrixXd::Zero(motors, count), Eigen::MatrixXd::Zero(motors, count)};
+  const auto places = static_cast<Eigen::Index>(model.motors.size() + model.coordinates.size());
+  TorqueBlocks blocks{Eigen::MatrixXd::Zero(places, count), Eigen::MatrixXd::Zero(places, count)};
   for (std::size_t t = 0; t < all_.size(); ++t) {
     for (Eigen::Index k = 0; k < errors[t].cols(); ++k) {
       const Eigen::Index block = first[t] + k * of_trial[t] / errors[t].cols();

@@ -23,7 +23,7 @@ using TorqueErrors = std::vector<Eigen::MatrixXd>;
 
 /// By block of a trial's samples: the errors of one block are correlated, and only blocks are independent.
 struct TorqueBlocks {
-  Eigen::MatrixXd squares;  ///< motors of the model x blocks: sums of squared errors
+  Eigen::MatrixXd squares;  ///< motors, then coordinates of the model x blocks: sums of squared errors
   Eigen::MatrixXd samples;  ///< likewise: how many
 };
 

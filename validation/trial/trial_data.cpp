@@ -124,6 +124,38 @@ Signal read_signal(const LogFile& log, const ColumnUse& use, bool may_miss) {
   return signal;
 }
 
+std::vector<Eigen::Index> rising_rows(const Eigen::VectorXd& time) {
+  std::vector<Eigen::Index> ends;  // of the rising rows of each length the last one, as early as can be
+  std::vector<Eigen::Index> before(static_cast<std::size_t>(time.size()), -1);
+  for (Eigen::Index k = 0; k < time.size(); ++k) {
+    if (!std::isfinite(time[k])) {
+      continue;
+    }
+    const auto at = std::lower_bound(ends.begin(), ends.end(), time[k],
+                                     [&](Eigen::Index row, double t) { return time[row] < t; });
+    before[static_cast<std::size_t>(k)] = at == ends.begin() ? -1 : *(at - 1);
+    if (at == ends.end()) {
+      ends.push_back(k);
+    } else {
+      *at = k;
+    }
+  }
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index k = ends.empty() ? -1 : ends.back(); k >= 0; k = before[static_cast<std::size_t>(k)]) {
+    rows.push_back(k);
+  }
+  std::reverse(rows.begin(), rows.end());
+  constexpr std::size_t kFewest = 3;
+  if (rows.size() > kFewest &&
+      time[rows.back()] - time[rows[rows.size() - 2]] > time[rows[rows.size() - 2]] - time[rows.front()]) {
+    rows.pop_back();
+  }
+  if (rows.size() > kFewest && time[rows[1]] - time[rows.front()] > time[rows.back()] - time[rows[1]]) {
+    rows.erase(rows.begin());
+  }
+  return rows;
+}
+
 RowTimes row_times(const TrialFile& file, const LogFile& log) {
   RowTimes times;
   const Eigen::Index n = log.table.rows();
@@ -139,7 +171,17 @@ RowTimes row_times(const TrialFile& file, const LogFile& log) {
   const auto most = static_cast<Eigen::Index>(kMostLeftOut * static_cast<double>(n));
   Eigen::Index not_rising = 0;
   Eigen::Index without = 0;
-  for (Eigen::Index k = 0; k < n; ++k) {
+  if (file.leave_out_bad_rows) {
+    times.rows = rising_rows(all);
+    const auto bad = n - static_cast<Eigen::Index>(times.rows.size());
+    if (bad > 0) {
+      times.remarks.push_back(
+          "Left out: " + std::to_string(bad) +
+          " rows whose time is missing, far from all others, or not above that of the row "
+          "before.");
+    }
+  }
+  for (Eigen::Index k = 0; k < n && !file.leave_out_bad_rows; ++k) {
     if (!std::isfinite(all[k])) {
       ++without;
       continue;

@@ -32,10 +32,15 @@ struct RowTimes {
   std::vector<std::string> remarks;
 };
 
+/// As many rows as rise together (the longest rising subsequence): a time that stands far ahead of those behind
+/// it is left out, not they. Of a first or last row that is farther from the others than these are from each
+/// other nothing is believed either.
+std::vector<Eigen::Index> rising_rows(const Eigen::VectorXd& time);
+
 /// Of the time column, or row by row of the rate. A time that begins later than 10^7 s is an absolute one
 /// (seconds since 1970, or since a machine was started): it is counted from the first row. A time that is not
 /// above the one before is refused; up to 1 % of the rows, which happens where a log is written by two
-/// threads, are left out with a remark.
+/// threads, are left out with a remark; with TrialFile::leave_out_bad_rows all that are not rising_rows().
 RowTimes row_times(const TrialFile& file, const LogFile& log);
 
 /// Values of the rows that are kept.

@@ -335,11 +335,27 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   file.folder = fs::path(file.path).parent_path().string();
   const YamlNode root = YamlNode::load(file.path);
   check_format(root, "trial/1");
-  root.allow_keys({"plumbline",     "title",           "model",       "role",
-                   "data",          "data_folder_env", "columns",     "section",
-                   "leave_out",     "missing",         "time",        "clock_shift_uncertainty",
-                   "commands",      "measured",        "locked",      "terrain",
-                   "configuration", "start",           "controllers", "events"});
+  root.allow_keys({"plumbline",
+                   "title",
+                   "model",
+                   "role",
+                   "data",
+                   "data_folder_env",
+                   "columns",
+                   "section",
+                   "leave_out",
+                   "missing",
+                   "rows",
+                   "time",
+                   "clock_shift_uncertainty",
+                   "commands",
+                   "measured",
+                   "locked",
+                   "terrain",
+                   "configuration",
+                   "start",
+                   "controllers",
+                   "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -362,6 +378,14 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
     file.fill_missing = missing->text() == "fill";
     if (!file.fill_missing && missing->text() != "refuse") {
       missing->refuse("refuse (the default) or fill" + nearest_names(missing->text(), {"refuse", "fill"}));
+    }
+  }
+  if (const auto rows = root.find("rows")) {
+    rows->allow_keys({"bad"});
+    const YamlNode bad = rows->at("bad");
+    file.leave_out_bad_rows = bad.text() == "leave_out";
+    if (!file.leave_out_bad_rows && bad.text() != "refuse") {
+      bad.refuse("refuse (the default) or leave_out" + nearest_names(bad.text(), {"refuse", "leave_out"}));
     }
   }
   if (const auto shift = root.find("clock_shift_uncertainty")) {

@@ -154,7 +154,8 @@ class Writer {
       out_ << "# " << look_.gaps << " gaps of more than five steps: no part of the trial.\n";
     }
     if (look_.not_rising > 0) {
-      out_ << "# " << look_.not_rising << " rows have a time that is not above that of the row before.\n";
+      out_ << "rows: {bad: leave_out}  # " << look_.not_rising
+           << " rows have a time that is not above that of the row before\n";
     }
     const bool any_missing =
         std::any_of(look_.columns.begin(), look_.columns.end(),

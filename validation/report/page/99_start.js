@@ -90,8 +90,9 @@ function start() {
   drawTrial();
   drawHeat();
   drawHorizons();
+  drawDefects();
   on("trial", drawTrial);
-  on("model", () => { drawSwitch(); drawCharts(); drawStrip(); drawWorst(); drawHeat(); drawHorizons(); drawForces(); });
+  on("model", () => { drawSwitch(); drawCharts(); drawStrip(); drawWorst(); drawHeat(); drawHorizons(); drawDefects(); drawForces(); });
   on("range", () => { applyRange(); drawStrip(); drawWorst(); });
   window.addEventListener("resize", onceAFrame(() => { drawFixed(); drawStrip(); resizeCharts(0); resizeSpectra(0); }));
   window.addEventListener("beforeprint", () => printing(true));

@@ -1,7 +1,8 @@
-#include "validation/diagnose/friction_everywhere.h"
+#include "validation/diagnose/standard_effects.h"
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -14,9 +15,22 @@
 namespace plumbline::validation {
 namespace {
 
-bool is_plain_friction(const Candidate& candidate) {
-  const std::string& law = candidate.law->declaration().name;
-  return law == "viscous" || law == "coulomb";
+bool is_one_of(const Candidate& candidate, const std::vector<std::string>& laws) {
+  return std::find(laws.begin(), laws.end(), candidate.law->declaration().name) != laws.end();
+}
+
+bool is_plain_friction(const Candidate& candidate) { return is_one_of(candidate, {"viscous", "coulomb"}); }
+
+bool is_drive_constant(const Candidate& candidate) {
+  return is_one_of(candidate, {"rotor_inertia", "torque_constant_error", "torque_bias"});
+}
+
+/// Is a number of this kind at this place among the stage's parameters?
+bool is_open(const Stage& stage, const Candidate& candidate) {
+  return std::any_of(stage.parameters.begin(), stage.parameters.end(), [&](const FreeParameter& parameter) {
+    const model::EffectUse& use = stage.model.effects[static_cast<std::size_t>(parameter.id.effect)];
+    return use.at == candidate.at && use.law->declaration().name == candidate.law->declaration().name;
+  });
 }
 
 /// Of the candidates those at as many places as the robot can move independently, motors first: friction at a
@@ -90,7 +104,9 @@ std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& cand
     const auto i = static_cast<Eigen::Index>(p);
     if (parameter.id.effect >= first) {
       const auto candidate = static_cast<std::size_t>(parameter.id.effect - first);
-      is_told[candidate] = all.estimate.theta[i] - parameter.lower > policy.told * deviations[i];
+      const double null =
+          candidates[candidate].law->null_values()[static_cast<std::size_t>(parameter.id.parameter)];
+      is_told[candidate] = std::abs(all.estimate.theta[i] - null) > policy.told * deviations[i];
     }
   }
   std::vector<Candidate> kept;
@@ -109,12 +125,9 @@ Refit as_refit(const Stage& stage) {
   return refit;
 }
 
-std::optional<Group> fitted_group(const Tried& tried, const Data& data, const Policy& policy) {
+std::optional<Group> fitted_group(const Tried& tried, const std::vector<Candidate>& candidates,
+                                  const Data& data, const Policy& policy) {
   constexpr std::size_t kLeast = 2;
-  std::vector<Candidate> candidates;
-  std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
-               is_plain_friction);
-  candidates = at_independent_places(tried.stage.model, std::move(candidates));
   Stage all = fitted(with_all(tried.stage, candidates), data);
   const std::vector<Candidate> kept = told(all, candidates, data, policy);
   if (kept.size() < kLeast) {
@@ -124,6 +137,32 @@ std::optional<Group> fitted_group(const Tried& tried, const Data& data, const Po
     all = fitted(with_all(tried.stage, kept), data);
   }
   return Group{kept, std::move(all), 0.0};
+}
+
+/// Friction alone, or with the drives' constants where these are worth it.
+std::optional<Group> best_group(const Tried& tried, const Data& data, const Policy& policy) {
+  std::vector<Candidate> candidates;
+  std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
+               is_plain_friction);
+  candidates = at_independent_places(tried.stage.model, std::move(candidates));
+  std::optional<Group> friction = fitted_group(tried, candidates, data, policy);
+  const std::size_t before = candidates.size();
+  std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
+               [&](const Candidate& one) { return is_drive_constant(one) && !is_open(tried.stage, one); });
+  if (candidates.size() == before ||
+      (friction && is_below(policy.finished, friction->stage.estimate, data))) {
+    return friction;
+  }
+  std::optional<Group> drives = fitted_group(tried, candidates, data, policy);
+  if (!drives || !friction) {
+    return drives ? std::move(drives) : std::move(friction);
+  }
+  const Refit one = as_refit(drives->stage);
+  const Refit other = as_refit(friction->stage);
+  const bool is_better =
+      judged(one.estimate, data) < (1.0 - policy.material) * judged(other.estimate, data) &&
+      share_better(one, other, data, policy) > policy.stable;
+  return is_better ? std::move(drives) : std::move(friction);
 }
 
 /// Does it leave so little that no single effect needs to be refitted beside it?
@@ -137,8 +176,8 @@ bool is_ahead_of_promises(const Refit& group, const Tried& tried, const Policy& 
 
 }  // namespace
 
-std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, const Policy& policy,
-                                         const Progress& progress) {
+std::optional<Group> standard_effects(const Tried& tried, const Data& data, const Policy& policy,
+                                      const Progress& progress) {
   constexpr std::size_t kLeast = 2;
   const auto count = std::count_if(tried.candidates.begin(), tried.candidates.end(), is_plain_friction);
   const bool is_answered =
@@ -146,9 +185,9 @@ std::optional<Group> friction_everywhere(const Tried& tried, const Data& data, c
   if (static_cast<std::size_t>(count) < kLeast || is_answered) {
     return {};
   }
-  progress("friction at every joint", 0.97);
+  progress("friction at every joint, constants of every drive", 0.97);
   try {
-    std::optional<Group> group = fitted_group(tried, data, policy);
+    std::optional<Group> group = best_group(tried, data, policy);
     if (!group) {
       return {};
     }
