@@ -165,7 +165,7 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
   const auto edge = static_cast<Eigen::Index>(std::ceil(kEdgePeriods / (samples.cutoff * trial.period)));
   samples.used = away_from_ends(trial, edge);
   if (samples.used.empty()) {
-    refuse(trial, "a record shorter than the filters' ends");
+    return samples;
   }
   Eigen::MatrixXd z = measured::positions(plant, trial, motion_cutoff);
   if (z.size() == 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulator/trace/error.h"
 #include "validation/compare/compare.h"
 #include "validation/standard/torque_problem.h"
 
@@ -71,7 +72,14 @@ StandardFit standard_fit(const model::Model& model, const Data& data, const Stan
     if (progress) {
       progress("regressor", static_cast<double>(i) / static_cast<double>(cutoffs.size()));
     }
-    fit_below(cutoffs[i], model, data, last);
+    try {
+      fit_below(cutoffs[i], model, data, last);
+    } catch (const InputError&) {
+      if (best.torques.empty()) {
+        throw;
+      }
+      break;  // the records are too short for filters of lower frequencies
+    }
     if (best.torques.empty() || last.after.train < best.after.train) {
       best = last;
     }

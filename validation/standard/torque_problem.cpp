@@ -33,10 +33,20 @@ using ByMotor = std::map<int, NormalEquations>;
 std::vector<MotionSamples> samples_of(const model::Model& model, const Data& data, const Cutoffs& cutoffs,
                                       Role role) {
   std::vector<MotionSamples> all;
+  bool any = false;
   for (const Trial& trial : data.trials) {
     if (trial.role == role) {
-      all.push_back(motion_samples(model, trial, cutoffs.motion, cutoffs.force));
+      any = true;
+      MotionSamples samples = motion_samples(model, trial, cutoffs.motion, cutoffs.force);
+      if (!samples.used.empty()) {
+        all.push_back(std::move(samples));
+      }
     }
+  }
+  if (any && all.empty()) {
+    throw InputError(
+        "found only records with role: " + to_string(role) +
+        " that are shorter than the ends of a filter, expected a longer one or a higher --cutoff");
   }
   if (all.empty()) {
     throw InputError("found no trial with role: " + to_string(role) + ", expected at least one");
