@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <set>
 
-#include "simulator/model/quantity.h"
+#include "simulator/model/plain_number.h"
 #include "simulator/model/yaml_chain.h"
 #include "simulator/model/yaml_node.h"
 #include "validation/batch/jobs.h"
@@ -57,8 +57,7 @@ void read_common(const YamlNode& node, Row& row) {
     row.data_folder = model::beside(node.file(), folder->text());
   }
   if (const auto window = node.find("window")) {
-    window->allow_keys({"value", "unit"});
-    row.window = model::read_quantity(*window, {"s", model::QuantityRule::Sign::positive, false, {}}).value;
+    row.window = model::read_positive(*window, "s");
   }
   if (const auto free = node.find("free")) {
     row.free = texts(*free);

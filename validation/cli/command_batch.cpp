@@ -13,14 +13,38 @@ struct Options {
   std::string jobs, out = "batch";
 };
 
+/// "missing: coulomb@drive"; of the other modes the errors, in floors.
+std::string outcome_of(const nlohmann::json& row) {
+  if (row.value("status", "") != "done") {
+    return row.value("why", "");
+  }
+  if (row.value("mode", "") != "diagnose") {
+    const nlohmann::json errors = row.at("errors");
+    std::string text;
+    for (const char* role : {"train", "held_out"}) {
+      const auto error = errors.find(role);
+      if (error != errors.end() && error->is_number()) {
+        text += fmt::format("{}{} {:.3f}", text.empty() ? "" : ", ", role, error->get<double>());
+      }
+    }
+    return text;
+  }
+  const nlohmann::json& result = row.at("result");
+  std::string text = result.value("verdict", "");
+  const char* joint = ": ";
+  for (const nlohmann::json& finding : result.at("accepted")) {
+    text += joint + finding.value("effect", "") + "@" + finding.value("at", "");
+    joint = ", ";
+  }
+  return text;
+}
+
 void print(const batch::BatchResult& result, const std::string& out) {
   std::vector<std::vector<std::string>> rows;
   for (const nlohmann::json& row : result.rows) {
     const bool is_done = row.value("status", "") == "done";
-    const nlohmann::json of = row.value("result", nlohmann::json::object());
-    const std::string verdict = of.value("summary", "");
-    rows.push_back({row.value("label", ""), row.value("mode", ""), is_done ? "done" : "FAILED",
-                    is_done ? verdict : row.value("why", "")});
+    rows.push_back(
+        {row.value("label", ""), row.value("mode", ""), is_done ? "done" : "FAILED", outcome_of(row)});
   }
   print_table({"row", "mode", "", "outcome"}, rows);
   fmt::print("\n{0}/batch.html and {0}/batch.csv: all rows together; {0}/rows: each of them.\n", out);
