@@ -64,6 +64,22 @@ TEST_F(Batch, AFailedRowSaysWhyAndStopsNoOther) {
   EXPECT_EQ(std::filesystem::last_write_time(folder + "/out/rows/all.json"), time);
 }
 
+// As an array of jobs does it: parts that share a folder, then the whole.
+TEST_F(Batch, IsDoneInParts) {
+  succeed({"batch", "jobs.yaml", "-o", "whole"});
+  succeed({"batch", "jobs.yaml", "-o", "out", "--part", "2/2"});
+  EXPECT_FALSE(std::filesystem::exists(folder + "/out/batch.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/out/rows/all.json"));
+  succeed({"batch", "jobs.yaml", "-o", "out", "--part", "1/2"});
+  const auto time = std::filesystem::last_write_time(folder + "/out/rows/all.json");
+  succeed({"batch", "jobs.yaml", "-o", "out"});
+  EXPECT_EQ(std::filesystem::last_write_time(folder + "/out/rows/all.json"), time);
+  EXPECT_EQ(results("out"), results("whole"));
+  for (const char* part : {"3/2", "0/2", "1", "1/2x"}) {
+    EXPECT_EQ(plumbline({"batch", "jobs.yaml", "-o", "out", "--part", part}).status, 2) << part;
+  }
+}
+
 TEST_F(Batch, RefusesBadInputInOneLine) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {jobs({}), "rows: found nothing, expected a list"},

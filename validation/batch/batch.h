@@ -14,6 +14,7 @@ namespace plumbline::batch {
 
 struct BatchOptions {
   std::string out;                   ///< folder; made if it is not there
+  int part = 1, parts = 1;           ///< only the rows part, part + parts, ...: no page and no table then
   work::Workers* workers = nullptr;  ///< each row is one of their tasks
   int threads = 1;                   ///< within a row
   const validation::StopFlag* stop = nullptr;

@@ -61,13 +61,33 @@ class Durations {
   std::map<std::string, double> known_;
 };
 
-std::vector<work::Task> tasks_of(const Jobs& jobs, const BatchOptions& options, const Durations& durations) {
+std::vector<work::Task> tasks_of(const std::vector<Row>& rows, const BatchOptions& options,
+                                 const Durations& durations) {
   std::vector<work::Task> tasks;
-  for (const Row& row : jobs.rows) {
+  for (const Row& row : rows) {
     tasks.push_back(
         {row.label, [&row, &options] { return run_row(row, options).dump(); }, durations.of(row.label)});
   }
   return tasks;
+}
+
+std::vector<Row> part_of(const std::vector<Row>& rows, const BatchOptions& options) {
+  std::vector<Row> some;
+  for (std::size_t r = static_cast<std::size_t>(options.part) - 1; r < rows.size();
+       r += static_cast<std::size_t>(options.parts)) {
+    some.push_back(rows[r]);
+  }
+  return some;
+}
+
+/// What all rows say together; only where all of them are here.
+void write_together(const Jobs& jobs, const BatchOptions& options, const std::vector<json>& rows) {
+  write_text_atomically(options.out + "/batch.csv", csv_of(rows));
+  write_text_atomically(options.out + "/batch.html", page_of(jobs.title, rows));
+  std::error_code none;
+  if (fs::is_empty(options.out + "/kept", none)) {
+    fs::remove(options.out + "/kept", none);
+  }
 }
 
 }  // namespace
@@ -85,16 +105,18 @@ BatchResult run_batch(const Jobs& jobs, const BatchOptions& options, const valid
     }
   }
   workers.check_shared(options.out);
+  const bool is_whole = options.parts == 1;
+  const std::vector<Row> rows = part_of(jobs.rows, options);
   Durations durations(options.out + "/durations.csv");
   std::size_t done = 0;
   work::Watch watch;
   watch.stop = &options.stop->raised;
   watch.done = [&](std::size_t task, const std::string& /*row*/, double seconds) {
-    durations.add(jobs.rows[task].label, seconds);
-    progress(jobs.rows[task].label, static_cast<double>(++done) / static_cast<double>(jobs.rows.size()));
+    durations.add(rows[task].label, seconds);
+    progress(rows[task].label, static_cast<double>(++done) / static_cast<double>(rows.size()));
   };
-  const work::Results results = workers.run(tasks_of(jobs, options, durations), watch);
-  if (workers.is_first()) {
+  const work::Results results = workers.run(tasks_of(rows, options, durations), watch);
+  if (workers.is_first() && is_whole) {
     durations.write();
   }
   if (results.stopped) {
@@ -104,13 +126,8 @@ BatchResult run_batch(const Jobs& jobs, const BatchOptions& options, const valid
   for (const std::string& row : results.bytes) {
     batch.rows.push_back(json::parse(row));
   }
-  if (workers.is_first()) {
-    write_text_atomically(options.out + "/batch.csv", csv_of(batch.rows));
-    write_text_atomically(options.out + "/batch.html", page_of(jobs.title, batch.rows));
-    std::error_code none;
-    if (fs::is_empty(options.out + "/kept", none)) {
-      fs::remove(options.out + "/kept", none);
-    }
+  if (workers.is_first() && is_whole) {
+    write_together(jobs, options, batch.rows);
   }
   return batch;
 }
