@@ -37,10 +37,11 @@ TEST(Values, HaveAWeightedMeanAndItsScatter) {
   ASSERT_EQ(values.size(), 1U);
   const ValueOverRows& value = values.front();
   EXPECT_EQ(value.name, "viscous@drive:damping");
-  EXPECT_NEAR(value.mean, 1.5, 1e-12);
-  // chi^2 = 98 with 3 degrees of freedom: the scatter makes the interval, t(0.975, 3) = 3.18245.
-  EXPECT_NEAR(value.upper - value.mean, 1.00896, 1e-5);
-  EXPECT_NEAR(value.lower + value.upper, 3.0, 1e-12);
+  // By numpy: chi^2 = 98 about the mean 1.5, between the rows a variance of 0.411666667; t(0.975, 3)
+  // = 3.18245.
+  EXPECT_NEAR(value.mean, 1.500000000, 1e-8);
+  EXPECT_NEAR(value.upper - value.mean, 1.041961719, 1e-7);
+  EXPECT_NEAR(value.mean - value.lower, value.upper - value.mean, 1e-12);
   // erfc(sqrt(x/2)) + sqrt(2 x/pi) exp(-x/2) at x = 98
   EXPECT_NEAR(value.probability, 4.183012e-21, 1e-26);
   EXPECT_TRUE(value.differs);

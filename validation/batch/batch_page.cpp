@@ -108,7 +108,7 @@ std::string values_part(const std::vector<ValueOverRows>& values, const std::vec
   }
   std::string page =
       "<h2>Values</h2>\n<p class=note>Dots with 95 % intervals, over days where rows state them, else in the "
-      "order of the rows. Grey: the weighted mean of all rows with its 95 % interval.</p>\n" +
+      "order of the rows. Grey: the mean of all rows with its 95 % interval.</p>\n" +
       key_part(colours) + "<div class=values>\n";
   for (const ValueOverRows& value : values) {
     page += "<figure>" + drawing_of(value, rows, colours) + "<figcaption>" + caption_of(value) +

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "validation/batch/jobs.h"
 
@@ -44,6 +45,17 @@ std::vector<double> weights_of(const std::vector<RowValue>& rows) {
   return weights;
 }
 
+/// Mean and its standard deviation where rows differ by this variance beyond what their deviations say.
+std::pair<double, double> mean_with(double between, const std::vector<RowValue>& rows) {
+  double sum = 0.0, all = 0.0;
+  for (const RowValue& one : rows) {
+    const double weight = 1.0 / (one.deviation * one.deviation + between);
+    sum += weight * one.value;
+    all += weight;
+  }
+  return {sum / all, std::sqrt(1.0 / all)};
+}
+
 void set_mean(ValueOverRows& value) {
   const std::vector<double> weights = weights_of(value.rows);
   double sum = 0.0, all = 0.0;
@@ -57,20 +69,22 @@ void set_mean(ValueOverRows& value) {
     value.upper = value.rows.front().upper;
     return;
   }
-  double square = 0.0;
+  double square = 0.0, squares = 0.0;  // about the mean; of the weights
   for (std::size_t i = 0; i < weights.size(); ++i) {
     square += weights[i] * std::pow(value.rows[i].value - value.mean, 2);
+    squares += weights[i] * weights[i];
   }
   const double freedom = static_cast<double>(value.rows.size()) - 1.0;
-  const double scatter = student(kLevel, freedom) * std::sqrt(square / freedom / all);
-  const bool known = has_deviations(value.rows);
-  const double half = std::max(scatter, known ? kNormal / std::sqrt(all) : 0.0);
-  value.lower = value.mean - half;
-  value.upper = value.mean + half;
-  if (known) {
+  double deviation = std::sqrt(square / freedom / all), quantile = student(kLevel, freedom);
+  if (has_deviations(value.rows)) {
     value.probability =
         boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), std::min(square, 1e6)));
+    const double between = std::max(0.0, (square - freedom) / (all - squares / all));
+    std::tie(value.mean, deviation) = mean_with(between, value.rows);
+    quantile = between > 0.0 ? quantile : kNormal;
   }
+  value.lower = value.mean - quantile * deviation;
+  value.upper = value.mean + quantile * deviation;
 }
 
 /// Of the rows of one robot that have a day; nothing where no line can be told.

@@ -39,8 +39,11 @@ struct Drift {
 struct ValueOverRows {
   std::string name, unit;
   std::vector<RowValue> rows;
-  /// Weighted mean with a 95 % interval: from the rows' deviations, or from the scatter between rows
-  /// (Student's t) where that is wider. One row: that row's own.
+  /// Mean of the rows with a 95 % interval, by weights 1/(deviation^2 + between), `between` the variance by
+  /// which rows differ beyond their deviations: max(0, (chi^2 - (n - 1)) / (W - sum w^2/W)), w =
+  /// 1/deviation^2, W their sum (R. DerSimonian, N. Laird, Controlled Clinical Trials 7 (1986) 177-188);
+  /// Student's t with n - 1 degrees of freedom where that is above 0, else the normal quantile. Where a
+  /// deviation is not known: the plain mean and the scatter. One row: that row's own.
   double mean = 0.0, lower = 0.0, upper = 0.0;
   /// Probability of a chi^2 as large as that of the rows about their mean, were they all the same; 1 where no
   /// deviation is known or there is one row.
