@@ -30,3 +30,8 @@ find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)
 find_path(UDUNITS2_INCLUDE udunits2.h REQUIRED)
 find_library(IPOPT_LIBRARY ipopt REQUIRED)
 find_path(IPOPT_INCLUDE IpIpoptApplication.hpp PATH_SUFFIXES coin coin-or REQUIRED)
+# Long work on the ranks of an MPI job, where there is one; OFF builds without it.
+option(PLUMBLINE_MPI "Long work on the ranks of an MPI job" ON)
+if(PLUMBLINE_MPI)
+  find_package(MPI COMPONENTS C)
+endif()

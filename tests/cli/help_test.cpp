@@ -110,7 +110,7 @@ TEST(Program, RefusesAnUnknownStudy) {
 TEST(Program, SaysItsVersion) {
   const Outcome outcome = run({"--version"}, "/");
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.out, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(outcome.out, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+ \\((no MPI|.*MPI.*)\\)\n"));
 }
 
 }  // namespace

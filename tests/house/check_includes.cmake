@@ -5,7 +5,8 @@ cmake_minimum_required(VERSION 3.25)
 
 # What each part may include besides itself. Parts not named here may not exist.
 set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
-    simulator/run simulator/render contact controllers validation python tests)
+    simulator/run simulator/render contact controllers work validation python tests)
+set(may_work)
 set(may_simulator/effects)
 set(may_simulator/trace)
 set(may_simulator/sensing)
@@ -17,20 +18,22 @@ set(may_simulator/run simulator/integrate simulator/model simulator/rigid simula
 set(may_simulator/render simulator/model simulator/trace)
 set(may_controllers)
 set(may_validation simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
-    simulator/run simulator/render contact controllers)
+    simulator/run simulator/render contact controllers work)
 set(may_python ${may_validation} validation)
 set(may_tests ${parts})
 
 # External headers that only some parts may see.
-set(guarded simbody sundials vtk assimp)
+set(guarded simbody sundials vtk assimp mpi)
 set(header_simbody "^(Simbody\\.h|SimTK|simbody/|simmath/)")
 set(header_sundials "^(cvodes?|arkode|idas?|kinsol|sundials|nvector|sunmatrix|sunlinsol|sunnonlinsol)/")
 set(header_vtk "^vtk")
 set(header_assimp "^assimp/")
+set(header_mpi "^mpi\\.h$")
 set(seen_simbody simulator/model simulator/integrate tests)
 set(seen_sundials simulator/model simulator/integrate tests)
 set(seen_vtk simulator/render)
 set(seen_assimp simulator/render)
+set(seen_mpi work)
 
 # Parts that use nothing but the standard library and, where said, Eigen.
 set(pure_parts simulator/effects simulator/sensing simulator/rigid contact controllers)
@@ -56,7 +59,7 @@ endfunction()
 function(check_own_include file line part included)
   part_of("${included}" target)
   if(NOT target)
-    if(included MATCHES "^(simulator|contact|controllers|validation|python|tests|robots)/" OR NOT included MATCHES "/"
+    if(included MATCHES "^(simulator|contact|controllers|work|validation|python|tests|robots)/" OR NOT included MATCHES "/"
        OR included MATCHES "\\.\\./")
       complain(${file} ${line} "includes \"${included}\", expected a path from the project's root into a known part")
     endif()
@@ -120,7 +123,7 @@ if(NOT IS_DIRECTORY "${ROOT}")
   message(FATAL_ERROR "ROOT: found '${ROOT}', expected the project's folder")
 endif()
 set(files)
-foreach(top simulator contact controllers validation python tests)
+foreach(top simulator contact controllers work validation python tests)
   file(GLOB_RECURSE found RELATIVE "${ROOT}" "${ROOT}/${top}/*.h" "${ROOT}/${top}/*.cpp" "${ROOT}/${top}/*.hpp"
        "${ROOT}/${top}/*.cc" "${ROOT}/${top}/*.inl")
   list(APPEND files ${found})

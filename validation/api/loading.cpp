@@ -1,5 +1,7 @@
 #include "validation/api/loading.h"
 
+#include <filesystem>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
@@ -63,10 +65,35 @@ std::vector<std::string> files_of(const Loaded& loaded) {
   return files;
 }
 
-std::size_t keep_results(const Loaded& loaded, const std::string& file) {
+std::size_t keep_results(const Loaded& loaded, const std::string& file, work::Workers* workers) {
+  using validation::KeptResults;
   const std::string inputs = validation::inputs_hash(loaded.model, loaded.data->trials);
-  loaded.data->kept = std::make_shared<validation::KeptResults>(file, inputs);
+  const auto open = [&](KeptResults::Access access) {
+    loaded.data->kept = std::make_shared<KeptResults>(file, inputs, access);
+  };
+  const bool is_shared = workers != nullptr && workers->ranks() > 1;
+  if (!is_shared || workers->is_first()) {
+    open(KeptResults::Access::append);  // the others read when it is whole
+  }
+  if (is_shared) {
+    const std::string folder = std::filesystem::path(file).parent_path().string();
+    workers->check_shared(folder.empty() ? "." : folder);
+    if (!workers->is_first()) {
+      open(KeptResults::Access::read);
+    }
+  }
   return loaded.data->kept->found();
+}
+
+void share_work(const Loaded& loaded, work::Workers& workers) {
+  if (workers.ranks() == 1) {
+    return;
+  }
+  workers.check_same("set of input files", validation::inputs_hash(loaded.model, loaded.data->trials));
+  if (!loaded.data->kept) {
+    loaded.data->kept = std::make_shared<validation::KeptResults>();
+  }
+  loaded.data->kept->share_with(&workers);
 }
 
 }  // namespace plumbline::api

@@ -8,6 +8,7 @@
 #include "simulator/effects/catalogue.h"
 #include "simulator/model/model.h"
 #include "validation/predict/problem.h"
+#include "work/workers.h"
 
 namespace plumbline::api {
 
@@ -40,7 +41,11 @@ std::vector<std::string> files_of(const Loaded& loaded);
 
 /// Long work then keeps its results in `file` and goes on from those in it (predict/kept_results.h); how many
 /// were found. Throws InputError when the file holds the results of other inputs.
-std::size_t keep_results(const Loaded& loaded, const std::string& file);
+/// Of several ranks the first one writes it, and all must see it.
+std::size_t keep_results(const Loaded& loaded, const std::string& file, work::Workers* workers = nullptr);
+
+/// A diagnosis of these data is shared among the workers' ranks. All of them must have read the same files.
+void share_work(const Loaded& loaded, work::Workers& workers);
 
 /// A score of trials that are not there is null.
 template <typename Json>

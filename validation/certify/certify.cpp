@@ -3,12 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <filesystem>
-#include <mutex>
+#include <optional>
 #include <random>
-#include <thread>
 
 #include "controllers/driver/signature.h"
 #include "simulator/trace/error.h"
@@ -69,11 +66,14 @@ class Certification {
         loaded_(run::read_scenario(requirements_.scenario)),
         gait_(gait_of()),
         files_(files_of(requirements_, loaded_)),
-        ledger_(options.progress, identity()) {}
+        ledger_(options.workers->is_first() ? options.progress : "", identity()) {}
 
   Certified run() {
     make_units();
     do_units();
+    if (!options_.workers->is_first()) {
+      return result_;
+    }
     judge_shares();
     judge_quantities();
     judge_supervisor();
@@ -223,48 +223,25 @@ class Certification {
   }
 
   void do_units() {
-    std::vector<const Unit*> open;
+    std::vector<work::Task> tasks;
     for (const Unit& unit : units_) {
-      if (ledger_.find(unit.key) == nullptr) {
-        open.push_back(&unit);
-      }
+      tasks.push_back({unit.key, [&unit] { return driver::canonical_json(unit.work()); }});
     }
-    const int known = static_cast<int>(units_.size() - open.size());
-    std::atomic<std::size_t> next{0}, done{0};
-    std::exception_ptr failure;
-    std::mutex mutex;
-    const auto worker = [&] {
-      while (true) {
-        const std::size_t k = next.fetch_add(1);
-        if (k >= open.size() || (options_.stop != nullptr && options_.stop->raised.load())) {
-          return;
-        }
-        try {
-          ledger_.add(open[k]->key, open[k]->work());
-        } catch (...) {
-          const std::lock_guard<std::mutex> lock(mutex);
-          failure = failure == nullptr ? std::current_exception() : failure;
-          next.store(open.size());
-          return;
-        }
-        const std::lock_guard<std::mutex> lock(mutex);
-        ++done;
-        if (options_.report) {
-          options_.report(static_cast<double>(done.load()) / static_cast<double>(open.size()), known);
-        }
+    const std::size_t known = ledger_.size(), open = units_.size() - std::min(known, units_.size());
+    std::size_t done = 0;
+    work::Watch watch;
+    watch.stop = options_.stop != nullptr ? &options_.stop->raised : nullptr;
+    watch.known = [&](std::size_t k) {
+      const Json* result = ledger_.find(units_[k].key);
+      return result == nullptr ? std::nullopt : std::optional<std::string>(driver::canonical_json(*result));
+    };
+    watch.done = [&](std::size_t k, const std::string& result, double /*seconds*/) {
+      ledger_.add(units_[k].key, driver::parse_json(result));
+      if (options_.report) {
+        options_.report(static_cast<double>(++done) / static_cast<double>(open), static_cast<int>(known));
       }
     };
-    std::vector<std::thread> threads;
-    for (int k = 0; k < options_.threads; ++k) {
-      threads.emplace_back(worker);
-    }
-    for (std::thread& thread : threads) {
-      thread.join();
-    }
-    if (failure != nullptr) {
-      std::rethrow_exception(failure);
-    }
-    if (options_.stop != nullptr && options_.stop->raised.load()) {
+    if (options_.workers->run(tasks, watch).stopped) {
       throw Stopped();
     }
   }

@@ -8,6 +8,7 @@
 #include "controllers/driver/json.h"
 #include "validation/certify/requirements.h"
 #include "validation/predict/problem.h"
+#include "work/workers.h"
 
 namespace plumbline::validation {
 
@@ -17,11 +18,11 @@ struct Judged {
 };
 
 struct CertifyOptions {
-  std::string certificate;  ///< path that will be written: files are named relative to its folder
-  std::string progress;     ///< path of the ledger
-  std::string version;      ///< of the program
-  int threads = 1;
-  const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown, and what is done stays in the ledger
+  std::string certificate;           ///< path that will be written: files are named relative to its folder
+  std::string progress;              ///< path of the ledger
+  std::string version;               ///< of the program
+  work::Workers* workers = nullptr;  ///< each run is one of their tasks
+  const StopFlag* stop = nullptr;    ///< raised: Stopped is thrown, and what is done stays in the ledger
   /// Share that is done, 0 to 1, and how many runs the ledger had.
   std::function<void(double, int)> report;
 };
@@ -33,7 +34,8 @@ struct Certified {
   double step_p999 = 0.0;  ///< s, measured here and now, and therefore not in the body
 };
 
-/// Throws InputError for requirements that do not fit together, Stopped when stopped.
+/// On other ranks than the first nothing is judged, and the result is empty. Throws InputError for
+/// requirements that do not fit together, Stopped when stopped.
 Certified certify(const std::string& requirements, const CertifyOptions& options);
 
 /// The files that a scenario's result hangs on, with what they are: the controller's library, constants and

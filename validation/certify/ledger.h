@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "controllers/driver/json.h"
@@ -10,11 +9,11 @@
 namespace plumbline::validation {
 
 /// A file of lines, each {"key", "result"}; the first states what all of it belongs to. A line is written
-/// when its result is known. Safe for several threads.
+/// when its result is known.
 class Ledger {
  public:
   /// Keeps what `file` has when it begins with `identity`, begins anew otherwise. A last line that was cut
-  /// off is dropped. Throws InputError when the file cannot be written.
+  /// off is dropped. Without a name nothing is written. Throws InputError when the file cannot be written.
   Ledger(const std::string& file, const std::string& identity);
 
   const driver::Json* find(const std::string& key) const;
@@ -23,7 +22,6 @@ class Ledger {
 
  private:
   std::string file_;
-  mutable std::mutex mutex_;
   std::map<std::string, driver::Json> results_;
 };
 

@@ -1,8 +1,5 @@
 #include <fmt/core.h>
 
-#include <chrono>
-#include <thread>
-
 #include "controllers/driver/certificate.h"
 #include "controllers/driver/plan.h"
 #include "controllers/driver/signature.h"
@@ -13,6 +10,7 @@
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/ranks.h"
 
 namespace plumbline::cli {
 namespace {
@@ -46,14 +44,16 @@ void read_back(const std::string& file) {
 }
 
 void run(const Options& options, Outcome& outcome) {
-  check_writable(options.out);
-  check_writable(options.body);
+  if (workers().is_first()) {
+    check_writable(options.out);
+    check_writable(options.body);
+  }
   validation::CertifyOptions certify;
   certify.certificate = options.out;
   certify.progress = options.out + ".progress";
   certify.version = PLUMBLINE_VERSION;
-  certify.threads = options.threads > 0 ? options.threads
-                                        : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  work::Threads threads(options.threads > 0 ? options.threads : work::cores());
+  certify.workers = workers().ranks() > 1 ? &workers() : &threads;
   certify.stop = &stop_flag();
   ProgressLine line;
   const validation::Progress show = line.callback();
@@ -70,6 +70,9 @@ void run(const Options& options, Outcome& outcome) {
     throw InputError(what.rfind(options.key, 0) == 0 ? what : options.key + ": " + what);
   }
   certified = validation::certify(options.requirements, certify);
+  if (!workers().is_first()) {
+    return;
+  }
   print(certified);
   if (!options.body.empty()) {
     write_text_atomically(options.body, driver::canonical_json(certified.body));
@@ -103,7 +106,9 @@ void add_certify(CLI::App& app, Outcome& outcome) {
       ->type_name("FILE");
   command->add_option("--body", options->body, "write the body alone, too, whether all holds or not")
       ->type_name("FILE");
-  command->add_option("--threads", options->threads, "runs at a time; otherwise one for each core")
+  command
+      ->add_option("--threads", options->threads,
+                   "runs at a time; otherwise one for each core (several ranks: one each)")
       ->check(CLI::Range(1, 1024));
   command->footer(
       "Example:\n  plumbline certify robots/mabel/certify/hopping.yaml --key lab.key -o hopping.cert");

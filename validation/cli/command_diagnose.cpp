@@ -9,6 +9,7 @@
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
+#include "validation/cli/ranks.h"
 #include "validation/diagnose/own_parameters.h"
 #include "validation/predict/kept_results.h"
 #include "validation/report/sentences.h"
@@ -226,7 +227,7 @@ void keep_results(const Loaded& loaded, const std::string& file, const std::vect
   if (std::find(written.begin(), written.end(), file) != written.end()) {
     throw InputError({file, 0, "--resume"}, "the file of --save or --json", "a file of its own");
   }
-  const std::size_t found = api::keep_results(loaded, file);
+  const std::size_t found = api::keep_results(loaded, file, &workers());
   if (found > 0) {
     fmt::print(stderr, "going on from {} results in {}\n", found, file);
   }
@@ -259,14 +260,21 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   command->footer("Example:\n  plumbline diagnose demo/siso_mLA demo/siso_mLS demo/mimo --save found.yaml");
   command->callback([options] {
     const effects::Catalogue catalogue = api::catalogue_without(options->inputs.without);
-    check_writable(options->save);
-    check_writable(options->resume);
+    if (workers().is_first()) {
+      check_writable(options->save);
+      check_writable(options->resume);
+    }
     const Loaded loaded = load(options->inputs);
     keep_results(loaded, options->resume, {options->save, options->inputs.json});
+    api::share_work(loaded, workers());
+    loaded.data->threads = work::cores();
     api::Answer answer;
     {
       ProgressLine progress;
       answer = api::diagnose(loaded, catalogue, options->diagnose, progress.callback());
+    }
+    if (!workers().is_first()) {
+      return;
     }
     const Diagnosis& diagnosis = answer.diagnosis;
     write_json(api::to_json(answer), options->inputs.json);

@@ -32,5 +32,6 @@ void add_twin(CLI::App& app, Outcome& outcome);
 void add_render(CLI::App& app, Outcome& outcome);
 void add_spring_mass(CLI::App& app, Outcome& outcome);
 void add_running(CLI::App& app, Outcome& outcome);
+void add_batch(CLI::App& app, Outcome& outcome);
 
 }  // namespace plumbline::cli

@@ -9,6 +9,7 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/driving_commands.h"
 #include "validation/cli/interrupt.h"
+#include "validation/cli/ranks.h"
 
 namespace {
 
@@ -75,6 +76,7 @@ void add_commands(CLI::App& app, const std::vector<std::string>& words, plumblin
   plumbline::cli::add_new_trial(app, outcome);
   plumbline::cli::add_compare(app, outcome);
   plumbline::cli::add_diagnose(app, outcome);
+  plumbline::cli::add_batch(app, outcome);
   plumbline::cli::add_effects(app, outcome);
   plumbline::cli::add_add(app, outcome);
   plumbline::cli::add_fit(app, outcome);
@@ -109,15 +111,18 @@ void parse(CLI::App& app, const std::vector<std::string>& words) {
   app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
 }
 
-}  // namespace
+/// Other ranks than the first are silent: they leave their reasons to it.
+int ended(int status, const std::string& why) {
+  fmt::print(stderr, "plumbline: {}\n", one_line(why));
+  plumbline::cli::workers().fail(one_line(why));
+  return status;
+}
 
-int main(int argc, char** argv) {
+int run_command(const std::vector<std::string>& words) {
   plumbline::cli::Outcome outcome;
-  const std::vector<std::string> words = command_words(argc, argv);
   CLI::App app{"plumbline: hold a robot's model against its measurements and learn which physics is missing"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", PLUMBLINE_VERSION);
-  plumbline::cli::catch_interrupts();
+  app.set_version_flag("--version", plumbline::cli::version_text());
   try {
     add_commands(app, words, outcome);
     refuse_unknown_command(app, words);
@@ -126,17 +131,31 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() == 0) {
       return app.exit(error);  // --help, --version
     }
-    fmt::print(stderr, "plumbline: {}\n", one_line(error.what()));
-    return 2;
+    return ended(2, error.what());
   } catch (const plumbline::InputError& error) {
-    fmt::print(stderr, "plumbline: {}\n", one_line(error.what()));
-    return 2;
+    return ended(2, error.what());
+  } catch (const plumbline::work::Refused& error) {
+    return ended(2, error.what());
   } catch (const plumbline::validation::Stopped& stopped) {
-    fmt::print(stderr, "plumbline: {}\n", stopped.what());
-    return 130;
+    return ended(130, stopped.what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "plumbline: {}\n", one_line(error.what()));
-    return 1;
+    return ended(1, error.what());
   }
   return outcome.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plumbline::cli::catch_interrupts();
+  int status = 2;
+  try {
+    plumbline::cli::start_ranks();
+    const std::vector<std::string> words = command_words(argc, argv);
+    status = plumbline::cli::is_left_out(words) ? 0 : run_command(words);
+  } catch (const plumbline::work::Refused& error) {
+    fmt::print(stderr, "plumbline: {}\n", error.what());
+  }
+  std::fflush(stdout);
+  return plumbline::cli::workers().finish(status);
 }

@@ -10,6 +10,7 @@
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/refit_one.h"
 #include "validation/diagnose/work.h"
+#include "validation/predict/work_ahead.h"
 
 namespace plumbline::validation {
 namespace {
@@ -40,16 +41,38 @@ bool is_simpler_friction(const Refit& one, const Refit& leader, const std::vecto
          is_friction(*leading.law);
 }
 
+/// Those that satisfy the test, in full, each by one of the ranks where there are several.
+void finish_ahead(const std::vector<Refit>& refits, double square_before,
+                  const std::vector<Candidate>& candidates, const Data& data, const Policy& policy,
+                  const std::function<bool(std::size_t)>& is_wanted) {
+  std::vector<Ahead> pieces;
+  for (std::size_t r = 0; r < refits.size(); ++r) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(refits[r].candidate)];
+    if (!refits[r].is_full && is_wanted(r)) {
+      pieces.push_back({"finishing " + candidate.label(), [&, r] {
+                          Refit copy = refits[r];
+                          finish_one(copy, square_before, candidate, data, policy,
+                                     [](const std::string&, double) {});
+                        }});
+    }
+  }
+  work_ahead(data, pieces);
+}
+
 /// Full refits of those that are near the best, and of simpler frictions in its place; above the floor of the
 /// first few in any case: the best so far may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, double square_before, const std::vector<Candidate>& candidates,
             const Data& data, const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
+  const auto is_wanted = [&](std::size_t r) {
+    const bool near = refits[r].square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
+    return near || is_simpler_friction(refits[r], refits.front(), candidates) ||
+           (r < kFirst && !at_floor(refits, data, policy));
+  };
+  finish_ahead(refits, square_before, candidates, data, policy, is_wanted);
   for (std::size_t r = 0; r < refits.size(); ++r) {
     Refit& one = refits[r];
-    const bool near = one.square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
-    if (near || is_simpler_friction(one, refits.front(), candidates) ||
-        (r < kFirst && !at_floor(refits, data, policy))) {
+    if (is_wanted(r)) {
       finish_one(one, square_before, candidates[static_cast<std::size_t>(one.candidate)], data, policy,
                  progress);
     }
@@ -215,9 +238,38 @@ class Round {
       if (i >= cheap && (!policy_.dear || is_explained())) {
         report(*chosen[i], "it takes many times the work; refitted where nothing else explains much");
       } else if (may_come_near(*chosen[i])) {
+        refit_ahead(chosen, i, cheap);
         add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), false);
       }
     }
+  }
+
+  /// The next ones that would be refitted as it stands now, one for each rank. Some may turn out not to be
+  /// needed: with one rank none is done ahead.
+  void refit_ahead(const std::vector<const Hypothesis*>& chosen, std::size_t from, std::size_t cheap) {
+    const auto ranks = static_cast<std::size_t>(ranks_of(data_));
+    if (from < ahead_ || ranks == 1) {
+      return;
+    }
+    std::vector<Ahead> pieces;
+    std::size_t i = from;
+    for (; i < chosen.size() && pieces.size() < ranks; ++i) {
+      const Hypothesis& one = *chosen[i];
+      if ((i >= cheap && !policy_.dear) || !may_come_near(one)) {
+        continue;
+      }
+      const Candidate& candidate = candidates_[static_cast<std::size_t>(one.candidate)];
+      // Laws with corners are held against the best so far on some windows first.
+      const bool is_asked_first = is_above_ && has_corners(one) && !refits_.empty();
+      pieces.push_back({"refitting " + candidate.label(), [this, &one, &candidate, is_asked_first] {
+                          if (!is_asked_first ||
+                              is_better_on_some(stage_, candidate, one, data_, {4, false}, refits_.front())) {
+                            refit_one(stage_, candidate, one, data_, {4, false});
+                          }
+                        }});
+    }
+    ahead_ = i;
+    work_ahead(data_, pieces);
   }
 
   /// By the windows' beginnings, where the promise is still far better than what was reached.
@@ -329,6 +381,7 @@ class Round {
   std::vector<NotRefitted>* failed_;
   bool straight_, is_far_, is_above_;
   double worth_;
+  std::size_t ahead_ = 0;  // of the chosen ones, refitted ahead
   std::vector<Refit> refits_;
 };
 

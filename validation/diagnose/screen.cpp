@@ -11,6 +11,7 @@
 #include "validation/diagnose/tangents.h"
 #include "validation/predict/carried_states.h"
 #include "validation/predict/kept_keys.h"
+#include "validation/predict/work_ahead.h"
 
 namespace plumbline::validation {
 namespace {
@@ -86,9 +87,23 @@ void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
                    [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
 }
 
+/// Each of them by one of the ranks, where there are several.
+void screen_ahead(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                  const Part& part, const std::vector<Hypothesis>& starts) {
+  std::vector<Ahead> pieces;
+  for (const Hypothesis& start : starts) {
+    pieces.push_back({"screening " + candidates[static_cast<std::size_t>(start.candidate)].label(), [&] {
+                        Hypothesis copy = start;
+                        screen_start(stage, candidates, copy, data, part);
+                      }});
+  }
+  work_ahead(data, pieces);
+}
+
 /// Starts from which the model cannot be integrated are out.
 void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
                    const Part& part, const Progress& progress, std::vector<Hypothesis>& starts) {
+  screen_ahead(stage, candidates, data, part, starts);
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
     progress("screening " + candidate.label(),
@@ -135,29 +150,49 @@ void keep_promising(const Stage& stage, const std::vector<Candidate>& candidates
   starts.resize(std::min(starts.size(), std::max(kLeast, starts.size() / 3)));
 }
 
-/// The best of the laws that had to be linearised away from their null value are linearised once more where
-/// their promise leads: theirs is the promise that a straight line keeps worst.
-void look_again(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
-                const Part& part, const Progress& progress, std::vector<Hypothesis>& found) {
+/// A start, and which of the screened ones it is of.
+struct SecondLook {
+  std::size_t of = 0;
+  Hypothesis again;
+};
+
+/// Where the promises of the best lead that had to be linearised away from their null value.
+std::vector<SecondLook> second_looks(const Stage& stage, const std::vector<Candidate>& candidates,
+                                     const std::vector<Hypothesis>& found) {
   constexpr std::size_t kLooks = 12;
   std::vector<int> seen;
+  std::vector<SecondLook> looks;
   for (std::size_t h = 0; h < found.size() && seen.size() < kLooks; ++h) {
     if (found[h].tangent || std::find(seen.begin(), seen.end(), found[h].candidate) != seen.end()) {
       continue;
     }
     seen.push_back(found[h].candidate);
     const Candidate& candidate = candidates[static_cast<std::size_t>(found[h].candidate)];
-    progress("looking again at " + candidate.label(), 0.95);
     const Extended extended = extend(stage, candidate, found[h].start);
     const Eigen::VectorXd theta = promised_theta(extended, found[h]);
     Hypothesis again = found[h];
     again.start = with_values(extended.model, extended.parameters, theta).effects.back().numbers();
-    if (candidate.law->is_null(again.start.data())) {
-      continue;
+    if (!candidate.law->is_null(again.start.data())) {
+      looks.push_back({h, std::move(again)});
     }
-    screen_start(stage, candidates, again, data, part);
-    if (again.promised() < found[h].promised()) {
-      found[h] = std::move(again);
+  }
+  return looks;
+}
+
+/// They are linearised once more there: theirs is the promise that a straight line keeps worst.
+void look_again(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                const Part& part, const Progress& progress, std::vector<Hypothesis>& found) {
+  std::vector<SecondLook> looks = second_looks(stage, candidates, found);
+  std::vector<Hypothesis> starts;
+  for (const SecondLook& look : looks) {
+    starts.push_back(look.again);
+  }
+  screen_ahead(stage, candidates, data, part, starts);
+  for (SecondLook& look : looks) {
+    progress("looking again at " + candidates[static_cast<std::size_t>(look.again.candidate)].label(), 0.95);
+    screen_start(stage, candidates, look.again, data, part);
+    if (look.again.promised() < found[look.of].promised()) {
+      found[look.of] = std::move(look.again);
     }
   }
   sort_by_promise(found);

@@ -120,9 +120,16 @@ std::string ResultKey::hash() const {
   return sha256_of(words + '\n' + std::string(bytes, values.size() * sizeof(double)));
 }
 
-KeptResults::KeptResults(const std::string& file, const std::string& inputs) : file_(file) {
+KeptResults::KeptResults(const std::string& file, const std::string& inputs, Access access) : file_(file) {
   if (std::filesystem::exists(file)) {
     read(inputs);
+  }
+  found_ = records_.size();
+  if (access == Access::read) {
+    return;
+  }
+  if (whole_) {
+    std::filesystem::resize_file(file, *whole_);
   }
   out_.open(file, std::ios::app | std::ios::binary);
   if (out_ && std::filesystem::file_size(file) == 0) {
@@ -131,7 +138,6 @@ KeptResults::KeptResults(const std::string& file, const std::string& inputs) : f
   if (!out_) {
     throw InputError({file, 0, ""}, "no way to write it", "a file that can be written");
   }
-  found_ = records_.size();
 }
 
 void KeptResults::read(const std::string& inputs) {
@@ -160,7 +166,7 @@ void KeptResults::read(const std::string& inputs) {
   if (line == 1 && (kKind + inputs).rfind(text, 0) != 0) {
     throw InputError({file_, 1, ""}, shown(text), "`plumbline: results/1 ...`");
   }
-  std::filesystem::resize_file(file_, at);
+  whole_ = at;
 }
 
 Record KeptResults::get(const ResultKey& key, const std::function<Record()>& compute) {
@@ -173,14 +179,37 @@ Record KeptResults::get(const ResultKey& key, const std::function<Record()>& com
     }
   }
   Record record = compute();
-  keep(hash, record);
+  keep(hash, record, true);
   return record;
 }
 
-void KeptResults::keep(const std::string& hash, const Record& record) {
+void KeptResults::keep(const std::string& hash, const Record& record, bool is_own) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_own && is_listing_) {
+    list_ += line_of(hash, record);
+  }
   if (records_.emplace(hash, record).second && out_.is_open()) {
     out_ << line_of(hash, record) << std::flush;
+  }
+}
+
+void KeptResults::begin_list() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_listing_ = true;
+  list_.clear();
+}
+
+std::string KeptResults::end_list() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_listing_ = false;
+  return std::move(list_);
+}
+
+void KeptResults::take(const std::string& list) {
+  std::istringstream lines(list);
+  for (std::string line; std::getline(lines, line);) {
+    const auto [hash, record] = parsed(line);
+    keep(hash, record, false);
   }
 }
 

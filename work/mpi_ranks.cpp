@@ -1,0 +1,531 @@
+// The ranks of an MPI job. The first one hands out tasks one at a time, and does some itself on a second
+// thread.
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include "work/workers.h"
+
+namespace plumbline::work {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRequest = 1;  // to the first rank: a result, and give me a task
+constexpr int kAnswer = 2;   // from it: a task, or how the run ended
+constexpr int kFailure = 3;  // to it: why a rank cannot go on
+
+constexpr std::int64_t kNone = -1;  // no task in a request
+constexpr std::int64_t kEnd = -1, kStopped = -2, kFailed = -3;
+
+enum class Kind : std::int32_t { first_request, result, stopped, failed };
+
+struct RequestHead {
+  std::uint64_t list = 0;  // of the names of all tasks
+  std::int64_t task = kNone;
+  Kind kind = Kind::first_request;
+  double seconds = 0.0;
+};
+
+struct Finished {
+  std::int64_t task = kNone;
+  Kind kind = Kind::first_request;
+  double seconds = 0.0;
+  std::string bytes;  // the result, or the message of a failure
+  std::exception_ptr failure{};
+};
+
+/// Set while this thread is within a task: whatever that asks for is done where it is.
+bool& is_within_task() {
+  thread_local bool within = false;
+  return within;
+}
+
+/// Open MPI's own waits keep a core busy, which other ranks may need.
+class Pause {
+ public:
+  void wait() {
+    constexpr int kSpins = 20;
+    constexpr std::chrono::microseconds kSleep(200);
+    ++count_ < kSpins ? std::this_thread::yield() : std::this_thread::sleep_for(kSleep);
+  }
+  void reset() { count_ = 0; }
+
+ private:
+  int count_ = 0;
+};
+
+std::string machine() {
+  std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+  int length = 0;
+  MPI_Get_processor_name(name.data(), &length);
+  return {name.data(), static_cast<std::size_t>(length)};
+}
+
+std::uint64_t list_of(const std::vector<Task>& tasks) {
+  std::string names;
+  for (const Task& task : tasks) {
+    names += task.name + '\n';
+  }
+  return std::hash<std::string>()(names);
+}
+
+Finished done(const std::vector<Task>& tasks, std::int64_t index, const Watch& watch) {
+  const Task& task = tasks[static_cast<std::size_t>(index)];
+  const auto begin = Clock::now();
+  Finished finished{index, Kind::result, 0.0, {}};
+  is_within_task() = true;
+  try {
+    finished.bytes = task.run();
+  } catch (const std::exception& error) {
+    finished.kind = watch.stop != nullptr && watch.stop->load() ? Kind::stopped : Kind::failed;
+    finished.bytes = error.what();
+    finished.failure = std::current_exception();
+  }
+  is_within_task() = false;
+  finished.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return finished;
+}
+
+/// The thread on which the first rank does tasks while it hands out others.
+class Helper {
+ public:
+  explicit Helper(std::function<Finished(std::int64_t)> work)
+      : work_(std::move(work)), thread_([this] { loop(); }) {}
+  ~Helper() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ended_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
+  Helper(const Helper&) = delete;
+  Helper& operator=(const Helper&) = delete;
+
+  bool is_idle() const { return !busy_; }
+  void give(std::int64_t task) {
+    busy_ = true;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      task_ = task;
+    }
+    changed_.notify_one();
+  }
+  std::optional<Finished> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::optional<Finished> taken = std::move(finished_);
+    finished_.reset();
+    busy_ = busy_ && !taken;
+    return taken;
+  }
+
+ private:
+  void loop() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return ended_ || task_ != kNone; });
+      if (ended_) {
+        return;
+      }
+      const std::int64_t task = task_;
+      task_ = kNone;
+      lock.unlock();
+      Finished finished = work_(task);
+      lock.lock();
+      finished_ = std::move(finished);
+    }
+  }
+
+  std::function<Finished(std::int64_t)> work_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::int64_t task_ = kNone;
+  std::optional<Finished> finished_;
+  bool ended_ = false, busy_ = false;
+  std::thread thread_;
+};
+
+void send_answer(int rank, std::int64_t answer) {
+  MPI_Send(&answer, 1, MPI_INT64_T, rank, kAnswer, MPI_COMM_WORLD);
+}
+
+std::string receive_bytes(const MPI_Status& status) {
+  int count = 0;
+  MPI_Get_count(&status, MPI_BYTE, &count);
+  std::string bytes(static_cast<std::size_t>(count), '\0');
+  MPI_Recv(bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
+           MPI_STATUS_IGNORE);
+  return bytes;
+}
+
+/// From the first rank to all.
+void broadcast(std::string& bytes) {
+  auto size = static_cast<std::uint64_t>(bytes.size());
+  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  constexpr std::uint64_t kMost = 1U << 30U;  // a count is an int
+  for (std::uint64_t at = 0; at < size; at += kMost) {
+    MPI_Bcast(bytes.data() + at, static_cast<int>(std::min(kMost, size - at)), MPI_BYTE, 0, MPI_COMM_WORLD);
+  }
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string bytes;
+  for (const std::string& part : parts) {
+    const auto size = static_cast<std::uint64_t>(part.size());
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes += part;
+  }
+  return bytes;
+}
+
+std::vector<std::string> split(const std::string& bytes) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at, sizeof size);
+    parts.push_back(bytes.substr(at + sizeof size, size));
+    at += sizeof size + size;
+  }
+  return parts;
+}
+
+/// One line for each task: when it was given away and when its result was back (s since the start), and how
+/// long the task itself took.
+class Times {
+ public:
+  explicit Times(const std::string& file) : begin_(Clock::now()) {
+    if (!file.empty()) {
+      out_.open(file);
+      out_ << "run,task,rank,given,back,seconds\n";
+    }
+  }
+  double now() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  void next_run() { ++run_; }
+  void add(const std::string& task, int rank, double given, double seconds) {
+    if (out_.is_open()) {
+      out_ << run_ << ',' << task << ',' << rank << ',' << given << ',' << now() << ',' << seconds << '\n';
+    }
+  }
+  void end() {
+    if (out_.is_open()) {
+      out_ << ",all,," << 0.0 << ',' << now() << ',' << now() << std::endl;
+    }
+  }
+
+ private:
+  Clock::time_point begin_;
+  std::ofstream out_;
+  int run_ = 0;
+};
+
+/// One run() on the first rank.
+class Lead {
+ public:
+  Lead(const std::vector<Task>& tasks, const Watch& watch, int ranks, Times& times)
+      : tasks_(tasks),
+        watch_(watch),
+        times_(times),
+        list_(list_of(tasks)),
+        waiting_(static_cast<std::size_t>(ranks), false),
+        given_(tasks.size(), 0.0),
+        helper_([this](std::int64_t task) { return done(tasks_, task, watch_); }) {
+    waiting_[0] = true;
+    results_.bytes.resize(tasks.size());
+    for (const std::size_t task : order_of(tasks)) {
+      std::optional<std::string> known = watch.known ? watch.known(task) : std::nullopt;
+      if (known) {
+        results_.bytes[task] = std::move(*known);
+      } else {
+        open_.push_back(static_cast<std::int64_t>(task));
+      }
+    }
+  }
+
+  Results run() {
+    Pause pause;
+    while (!is_complete()) {
+      look_for_stop();
+      feed();
+      receive() ? pause.reset() : pause.wait();
+    }
+    tell_all();
+    if (failed_ && !results_.stopped) {
+      failed_->failure ? std::rethrow_exception(failed_->failure) : throw Failed(failed_->bytes);
+    }
+    return std::move(results_);
+  }
+
+ private:
+  bool is_over() const { return results_.stopped || failed_; }
+  bool is_complete() const {
+    const bool is_done = out_ == 0 && (next_ == open_.size() || is_over());
+    return is_done && (std::all_of(waiting_.begin(), waiting_.end(), [](bool one) { return one; }) ||
+                       (results_.stopped && Clock::now() > give_up_));
+  }
+
+  /// A rank that was stopped elsewhere in the program does not come here any more: it is not waited for.
+  void look_for_stop() {
+    constexpr std::chrono::seconds kPatience(5);
+    if (!results_.stopped && watch_.stop != nullptr && watch_.stop->load()) {
+      results_.stopped = true;
+      give_up_ = Clock::now() + kPatience;
+    }
+  }
+
+  void feed() {
+    for (std::size_t r = waiting_.size(); r-- > 0;) {  // the others first, which wait for longer
+      if (!waiting_[r] || next_ == open_.size() || is_over() || (r == 0 && !helper_.is_idle())) {
+        continue;
+      }
+      const std::int64_t task = open_[next_++];
+      given_[static_cast<std::size_t>(task)] = times_.now();
+      waiting_[r] = false;
+      ++out_;
+      r == 0 ? helper_.give(task) : send_answer(static_cast<int>(r), task);
+    }
+  }
+
+  bool receive() {
+    if (std::optional<Finished> own = helper_.take()) {
+      keep(std::move(*own), 0);
+      return true;
+    }
+    int is_there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &status);
+    if (is_there == 0) {
+      return false;
+    }
+    const std::string message = receive_bytes(status);
+    if (status.MPI_TAG == kFailure) {
+      throw Refused(message);
+    }
+    RequestHead head;
+    std::memcpy(&head, message.data(), sizeof head);
+    if (head.list != list_) {
+      throw Failed(
+          "rank " + std::to_string(status.MPI_SOURCE) +
+          " has come to other tasks than the first rank; the ranks must be alike (processors, files)");
+    }
+    keep({head.task, head.kind, head.seconds, message.substr(sizeof head)}, status.MPI_SOURCE);
+    return true;
+  }
+
+  void keep(Finished finished, int rank) {
+    waiting_[static_cast<std::size_t>(rank)] = true;
+    if (finished.kind == Kind::first_request) {
+      return;
+    }
+    --out_;
+    if (finished.kind == Kind::result) {
+      const auto task = static_cast<std::size_t>(finished.task);
+      times_.add(tasks_[task].name, rank, given_[task], finished.seconds);
+      results_.bytes[task] = std::move(finished.bytes);
+      if (watch_.done) {
+        watch_.done(task, results_.bytes[task], finished.seconds);
+      }
+    } else if (finished.kind == Kind::failed) {
+      failed_ = failed_ ? std::move(failed_) : std::move(finished);
+    } else {
+      results_.stopped = true;
+      give_up_ = Clock::now();
+    }
+  }
+
+  void tell_all() {
+    const bool is_failed = failed_ && !results_.stopped;
+    const std::int64_t answer = results_.stopped ? kStopped : is_failed ? kFailed : kEnd;
+    for (std::size_t r = 1; r < waiting_.size(); ++r) {
+      if (waiting_[r]) {
+        send_answer(static_cast<int>(r), answer);
+      }
+    }
+    if (!results_.stopped) {
+      std::string bytes = is_failed ? failed_->bytes : joined(results_.bytes);
+      broadcast(bytes);
+    }
+  }
+
+  const std::vector<Task>& tasks_;
+  const Watch& watch_;
+  Times& times_;
+  std::uint64_t list_;
+  std::vector<bool> waiting_;         // for a task, by rank
+  std::vector<double> given_;         // when, by task
+  std::vector<std::int64_t> open_{};  // in the order in which they are given away
+  std::size_t next_ = 0;
+  int out_ = 0;  // given away and not back
+  std::optional<Finished> failed_{};
+  Clock::time_point give_up_{};
+  Results results_{};
+  Helper helper_;
+};
+
+/// One run() on another rank.
+Results follow(const std::vector<Task>& tasks, const Watch& watch) {
+  Finished finished;
+  RequestHead head;
+  head.list = list_of(tasks);
+  std::int64_t answer = 0;
+  while (true) {
+    head.task = finished.task;
+    head.kind = finished.kind;
+    head.seconds = finished.seconds;
+    std::string message(sizeof head, '\0');
+    std::memcpy(message.data(), &head, sizeof head);
+    message += finished.bytes;
+    MPI_Send(message.data(), static_cast<int>(message.size()), MPI_BYTE, 0, kRequest, MPI_COMM_WORLD);
+    Pause pause;
+    for (int is_there = 0; is_there == 0; pause.wait()) {
+      MPI_Iprobe(0, kAnswer, MPI_COMM_WORLD, &is_there, MPI_STATUS_IGNORE);
+    }
+    MPI_Recv(&answer, 1, MPI_INT64_T, 0, kAnswer, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (answer < 0) {
+      break;
+    }
+    finished = done(tasks, answer, watch);
+  }
+  Results results;
+  results.stopped = answer == kStopped;
+  if (results.stopped) {
+    results.bytes.resize(tasks.size());
+    return results;
+  }
+  std::string bytes;
+  broadcast(bytes);
+  if (answer == kFailed) {
+    throw Failed(bytes);
+  }
+  results.bytes = split(bytes);
+  return results;
+}
+
+class MpiRanks : public Workers {
+ public:
+  explicit MpiRanks(const std::string& times) : rank_(begin()), times_(rank_ == 0 ? times : "") {
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+
+  int ranks() const override { return is_within_task() ? 1 : size_; }
+  bool is_first() const override { return rank_ == 0; }
+
+  Results run(const std::vector<Task>& tasks, const Watch& watch) override {
+    if (is_within_task()) {
+      return Threads(1).run(tasks, watch);
+    }
+    if (rank_ != 0) {
+      return follow(tasks, watch);
+    }
+    times_.next_run();
+    return Lead(tasks, watch, size_, times_).run();
+  }
+
+  void check_same(const std::string& what, const std::string& identity) override {
+    std::string first = identity;
+    broadcast(first);
+    refuse_where(first != identity, "another " + what + " than rank 0", "the same on all ranks");
+  }
+
+  void check_shared(const std::string& folder) override {
+    std::string file = folder + "/.shared-" + std::to_string(::getpid());
+    broadcast(file);
+    if (rank_ == 0) {
+      std::ofstream(file) << machine();
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::error_code none;
+    const bool is_hidden = !std::filesystem::exists(file, none);
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_ == 0) {
+      std::filesystem::remove(file, none);
+    }
+    refuse_where(is_hidden, folder + " without what rank 0 writes there", "a folder that all ranks share");
+  }
+
+  void fail(const std::string& why) override {
+    if (rank_ != 0) {
+      const std::string message = name() + ": " + why;
+      MPI_Send(message.data(), static_cast<int>(message.size()), MPI_BYTE, 0, kFailure, MPI_COMM_WORLD);
+    }
+  }
+
+  int finish(int status) override {
+    times_.end();
+    MPI_Request barrier = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &barrier);
+    const auto last = Clock::now() + std::chrono::seconds(status == 0 ? 60 : 2);
+    Pause pause;
+    for (int is_done = 0; true; pause.wait()) {
+      MPI_Test(&barrier, &is_done, MPI_STATUS_IGNORE);
+      if (is_done != 0) {
+        break;
+      }
+      if (rank_ == 0 && Clock::now() > last) {  // some rank waits for tasks that do not come any more
+        MPI_Abort(MPI_COMM_WORLD, status == 0 ? 1 : status);
+      }
+    }
+    MPI_Finalize();
+    return rank_ == 0 ? status : 0;
+  }
+
+ private:
+  static int begin() {
+    int level = 0, rank = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+  }
+
+  std::string name() const { return "rank " + std::to_string(rank_) + " on " + machine(); }
+
+  /// All ranks throw alike where one of them has found something wrong: the lowest of them is named.
+  void refuse_where(bool is_wrong, const std::string& found, const std::string& expected) const {
+    const int mine = is_wrong ? rank_ : size_;
+    int lowest = size_;
+    MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    if (lowest == size_) {
+      return;
+    }
+    std::string text = name() + ": found " + found + ", expected " + expected;
+    auto length = static_cast<std::uint64_t>(text.size());
+    MPI_Bcast(&length, 1, MPI_UINT64_T, lowest, MPI_COMM_WORLD);
+    text.resize(length);
+    MPI_Bcast(text.data(), static_cast<int>(length), MPI_BYTE, lowest, MPI_COMM_WORLD);
+    throw Refused(text);
+  }
+
+  int rank_, size_ = 1;
+  Times times_;
+};
+
+}  // namespace
+
+std::string mpi_name() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string name(text.data(), static_cast<std::size_t>(length));
+  return name.substr(0, name.find_first_of(",\n"));
+}
+
+std::unique_ptr<Workers> start(const std::string& times) {
+  if (started_together() > 1 || !times.empty()) {
+    return std::make_unique<MpiRanks>(times);
+  }
+  return std::make_unique<Threads>(1);
+}
+
+}  // namespace plumbline::work
