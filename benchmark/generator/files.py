@@ -154,25 +154,29 @@ def write_json(path, content):
         file.write("\n")
 
 
-def write_recording(path, case, table, withheld):
+def write_recording(path, case, table, withheld, period):
     """table: by column's name. Of a test recording only time and commands are written."""
     names = [n for n, c in case["columns"].items() if not withheld or c["is"] == "command"]
     units = [("t", "s")] + [(n, case["columns"][n]["unit"]) for n in names]
     count = len(next(iter(table.values())))
-    write_csv(path, units, np.column_stack([np.arange(count) * PERIOD] + [table[n] for n in names]))
+    write_csv(path, units, np.column_stack([np.arange(count) * period] + [table[n] for n in names]))
 
 
 def write_case(out, case, machine, tables, truth):
+    write_files(out, case, urdf(machine), tables, truth, PERIOD)
+
+
+def write_files(out, case, robot, tables, truth, period):
     """Two folders: cases/ID for entrants, truths/ID for the score."""
     open_folder, truth_folder = (os.path.join(out, kind, case["id"]) for kind in ("cases", "truths"))
     for folder in (open_folder, truth_folder):
         os.makedirs(folder, exist_ok=True)
     with open(os.path.join(open_folder, "robot.urdf"), "w", encoding="utf-8") as file:
-        file.write(urdf(machine))
+        file.write(robot)
     write_json(os.path.join(open_folder, "case.json"), case)
     write_json(os.path.join(truth_folder, "truth.json"), rounded(truth))
     for record in case["recordings"]:
         table = tables[record["file"]]
-        write_recording(os.path.join(open_folder, record["file"]), case, table, record["role"] == "test")
+        write_recording(os.path.join(open_folder, record["file"]), case, table, record["role"] == "test", period)
         if record["role"] == "test":
-            write_recording(os.path.join(truth_folder, record["file"]), case, table, False)
+            write_recording(os.path.join(truth_folder, record["file"]), case, table, False, period)
