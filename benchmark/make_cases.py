@@ -1,18 +1,25 @@
 #!/usr/bin/env python3
 """Makes the cases of the benchmark from a seed: OUT/cases/ID for entrants, OUT/truths/ID for the score.
 
-Usage: make_cases.py --out DIR [--seed N] [--set first|all] [--only TEXT] [--count N] [--prefix NAME]
-                     [--hashes FILE --salt-file FILE] [--seed-file FILE]
+Usage: make_cases.py --out DIR [--seed N | --secret-file FILE] [--set first|all] [--only TEXT] [--count N] [--prefix NAME] [--hashes FILE]
+       make_cases.py --reveal SECRET [--out DIR] [--hashes FILE] [--case ID ...]
 
-first: each single effect at one strength (63 cases); all: each at three (150). --only: machines or groups that contain the text.
---hashes writes SHA-256(salt + truth.json) of every case, by which a sealed truth is held to once it is shown. A case's salt is
-SHA-256(text of --salt-file + identifier), in hexadecimal: it can be shown for one case alone. --seed-file: a seed that is not to be seen.
+first: each single effect at one strength; all: each at three. --only: machines or groups that contain the text.
+
+Sealed cases come from one secret of 32 hexadecimal digits (128 bits). The seed is HMAC-SHA256(secret, "seed"), the salt of a case
+HMAC-SHA256(secret, "salt ID"), which can be shown for one case alone. --hashes writes SHA-256(salt + truth.json) of every case, by which
+a truth is held to once it is shown. --reveal makes the cases of the hashes file (of benchmark/sealed, if no other is given) once more
+and says of each truth whether it has the hash; status 1 where one has not.
 """
 
 import argparse
 import hashlib
+import hmac
+import json
 import os
+import re
 import sys
+import tempfile
 
 import numpy as np
 
@@ -78,13 +85,24 @@ def make(out, identifier, entry, seed):
 
 
 def chosen(options):
-    """(identifier, entry, seed) of the cases; identifiers say nothing of what is hidden."""
-    entries = list(plan.entries(options.set == "all"))
-    order = np.random.default_rng(options.seed).permutation(len(entries))
-    for number, index in enumerate(order[:options.count]):
-        entry = entries[index]
-        if options.only in entry[0] or options.only in entry[1]:
-            yield f"{options.prefix}{number + 1:03d}", entry, [options.seed, int(index)]
+    """(identifier, entry, seed) of the cases; identifiers say nothing of what is hidden. A public seed draws the order machine by machine as
+    they came to the benchmark, so that numbers stay; a secret draws one order of all."""
+    rng = np.random.default_rng(options.seed)
+    blocks = plan.BLOCKS if not options.secret else [sum(plan.BLOCKS, ())]
+    number = first = 0
+    for machines in blocks:
+        entries = list(plan.entries(options.set == "all", machines))
+        # The first block's order is the one that it had alone.
+        for index in rng.permutation(len(entries)):
+            number, entry = number + 1, entries[index]
+            if (not options.count or number <= options.count) and (options.only in entry[0] or options.only in entry[1]):
+                yield f"{options.prefix}{number:03d}", entry, [options.seed, first + int(index)]
+        first += len(entries)
+
+
+def derived(secret, of):
+    """A number's hexadecimal digits that say nothing of the secret."""
+    return hmac.new(secret.encode(), of.encode(), hashlib.sha256).hexdigest()
 
 
 def hash_of(path, salt):
@@ -92,34 +110,92 @@ def hash_of(path, salt):
         return hashlib.sha256(salt.encode() + file.read()).hexdigest()
 
 
-def text_of(path):
-    if not path:
-        return ""
-    with open(path, encoding="utf-8") as file:
-        return file.read().strip()
+def checked_secret(text, where):
+    if not re.fullmatch("[0-9a-f]{32}", text):
+        sys.exit(f"{where}: expected 32 hexadecimal digits (0-9, a-f), found {len(text)} characters that are not these")
+    return text
 
 
-def main():
+def sources_hash():
+    """Of the sources that decide over the cases: another generator makes other truths of the same secret."""
+    whole, here = hashlib.sha256(), os.path.dirname(os.path.abspath(__file__))
+    for name in sorted(os.listdir(os.path.join(here, "generator"))):
+        if name.endswith(".py"):
+            with open(os.path.join(here, "generator", name), "rb") as file:
+                whole.update(file.read())
+    return whole.hexdigest()
+
+
+def make_all(options):
+    """Makes the cases; returns the hashes of the truths."""
+    hashes = {}
+    for identifier, entry, seed in chosen(options):
+        if options.case and identifier not in options.case:
+            continue
+        truth = make(options.out, identifier, entry, seed)
+        salt = derived(options.secret, f"salt {identifier}") if options.secret else ""
+        hashes[identifier] = hash_of(os.path.join(options.out, "truths", identifier, "truth.json"), salt)
+        # What a secret hides is not for the screen.
+        about = "sealed" if options.secret else f"{entry[0]} {entry[1]} shows {truth['shows']:.1f}"
+        print(identifier, about, flush=True)
+    return hashes
+
+
+def reveal(options):
+    """Status: 0 where every truth has the hash that it was sealed with."""
+    with open(options.hashes, encoding="utf-8") as file:
+        sealed = json.load(file)
+    for key in ("set", "count", "prefix"):
+        setattr(options, key, sealed["made"][key])
+    options.only = sealed["made"].get("only", "")
+    if sealed["generator"] != sources_hash():
+        print(f"The generator is another one than that of {options.hashes}: take the sources of release {sealed['release']}.")
+    hashes, wrong = make_all(options), 0
+    for identifier, found in hashes.items():
+        right = found == sealed["hashes"][identifier]
+        wrong += not right
+        print(f"{identifier} {'has' if right else 'DOES NOT HAVE'} its hash; salt {derived(options.secret, f'salt {identifier}')}")
+    print(f"{len(hashes) - wrong} of {len(hashes)} truths have their hashes; they are in {options.out}/truths")
+    return 1 if wrong else 0
+
+
+def arguments():
+    here = os.path.dirname(os.path.abspath(__file__))
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", required=True)
+    parser.add_argument("--out")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--set", choices=("first", "all"), default="first")
     parser.add_argument("--only", default="")
     parser.add_argument("--count", type=int, help="only the first so many of the drawn order")
+    parser.add_argument("--case", nargs="+", help="only these identifiers")
     parser.add_argument("--prefix", default="case_")
-    parser.add_argument("--hashes")
-    parser.add_argument("--salt-file")
-    parser.add_argument("--seed-file")
+    parser.add_argument("--hashes", help="file of hashes, to write or with --reveal to read")
+    parser.add_argument("--release", type=int, default=1, help="of the sealed cases, for the file of hashes")
+    parser.add_argument("--secret-file")
+    parser.add_argument("--reveal", metavar="SECRET")
     options = parser.parse_args()
-    options.seed = int(text_of(options.seed_file)) if options.seed_file else options.seed
-    secret, hashes = text_of(options.salt_file), {}
-    for identifier, entry, seed in chosen(options):
-        truth = make(options.out, identifier, entry, seed)
-        hashes[identifier] = hash_of(os.path.join(options.out, "truths", identifier, "truth.json"),
-                                     hashlib.sha256((secret + identifier).encode()).hexdigest())
-        print(f"{identifier} {entry[0]} {entry[1]}", f"shows {truth['shows']:.1f}", flush=True)
+    if not options.out and not options.reveal:
+        parser.error("--out is needed")
+    options.out = options.out or tempfile.mkdtemp(prefix="revealed_")
+    options.secret = options.reveal and checked_secret(options.reveal, "--reveal")
+    if options.reveal:
+        options.hashes = options.hashes or os.path.join(here, "sealed", "hashes.json")
+    elif options.secret_file:
+        with open(options.secret_file, encoding="utf-8") as file:
+            options.secret = checked_secret(file.read().strip(), options.secret_file)
+    if options.secret:
+        options.seed = int(derived(options.secret, "seed"), 16)
+    return options
+
+
+def main():
+    options = arguments()
+    if options.reveal:
+        sys.exit(reveal(options))
+    hashes = make_all(options)
     if options.hashes:
-        files.write_json(options.hashes, hashes)
+        made = {"set": options.set, "count": options.count, "prefix": options.prefix, "only": options.only}
+        files.write_json(options.hashes, {"release": options.release, "made": made, "generator": sources_hash(), "hashes": hashes})
 
 
 if __name__ == "__main__":

@@ -38,10 +38,20 @@ def name_of(entry):
     return entry["kind"], entry["place"]
 
 
-def true_names(truth, case):
+def true_names(truth, case, effects=None):
     """What an answer can name; effects outside the allowed list are none."""
     allowed = {name_of(entry) for entry in case["allowed"]}
-    return {name_of(effect) for effect in truth["effects"]} & allowed
+    return {name_of(effect) for effect in (truth["effects"] if effects is None else effects)} & allowed
+
+
+def nearest_truth(answer, truth, case):
+    """Of the truth and what says the same in other names ("also_right"), the one that the answer meets best."""
+    candidates = [true_names(truth, case)] + [true_names(truth, case, effects) for effects in truth.get("also_right", [])]
+
+    def merit(names):
+        got = names_score(answer, names, truth["group"])
+        return got["first"], got["group"], got["lead"], -got["invented"]
+    return max(candidates, key=merit)
 
 
 def slots_of(answer):
@@ -84,7 +94,7 @@ def log_score(given, true):
 def prediction_error(folder, truth_folder, case):
     """Root mean square over the position columns of all test recordings, in floors; each value at most WORST."""
     squares = []
-    positions = {n: math.hypot(c["resolution"] / math.sqrt(12.0), c["noise"]) for n, c in case["columns"].items() if "noise" in c}
+    positions = {n: c.get("judged_in") or math.hypot(c["resolution"] / math.sqrt(12.0), c["noise"]) for n, c in case["columns"].items() if "noise" in c}
     for entry in case["recordings"]:
         if entry["role"] != "test":
             continue
@@ -122,7 +132,7 @@ def score_case(folder, case, truth, truth_folder):
     path = os.path.join(folder, "answer.json")
     answered = os.path.exists(path)
     answer = load(path) if answered else {"verdict": "nothing", "found": []}
-    true = true_names(truth, case)
+    true = nearest_truth(answer, truth, case)
     given = confidences(answer, case)
     held, count = coverage(answer, truth)
     run = os.path.join(folder, "run.json")
@@ -179,14 +189,15 @@ def main():
     parser.add_argument("--cases", dest="only", nargs="+", help="only these cases")
     options = parser.parse_args()
     rows = score(options.answers, options.cases, options.truths, options.only)
-    groups = {"all": rows, **{k: [r for r in rows if r["kind"] == k] for k in ("single", "pair", "nothing", "outside")},
+    groups = {"simulated": [r for r in rows if r["kind"] != "real"],
+              **{k: [r for r in rows if r["kind"] == k] for k in ("single", "pair", "nothing", "outside", "real")},
               **{m: [r for r in rows if r["machine"] == m] for m in sorted({r["machine"] for r in rows})}}
     result = {name: summary(chosen) for name, chosen in groups.items()}
     for name, line in result.items():
         if line:
             covered = "-" if line["coverage"] is None else f"{line['coverage']:.2f} of {line['intervals']}"
             seconds = "-" if line["seconds"] is None else f"{line['seconds']:.1f} s"
-            print(f"{name:10} {line['cases']:4} cases  first {line['first']:.2f}  group {line['group']:.2f}  invented {line['invented']:.2f}  "
+            print(f"{name:15} {line['cases']:4} cases  first {line['first']:.2f}  group {line['group']:.2f}  invented {line['invented']:.2f}  "
                   f"log {line['log_score']:7.2f}  prediction {line['prediction']:8.2f}  covered {covered}  {seconds}")
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:

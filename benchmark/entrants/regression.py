@@ -74,20 +74,26 @@ class Problem:
         weights = smoothing_weights(self.half)
         return np.stack([np.convolve(c, weights, "valid")[::stride] for c in forces.T], axis=1)
 
-    def ground(self, m, change=""):
-        """Generalised forces of the stated ground; change: the derivative by a scale of stiffness or damping, or by height."""
+    def ground(self, m, change="", place=""):
+        """Generalised forces of the stated ground; change: the derivative by a scale of stiffness, damping or friction, or by height, of the
+        ground at a place."""
         out = np.zeros_like(m.q)
         for foot in self.case.about["feet"]:
+            if place not in ("", foot.get("place", foot["name"])):
+                continue
             law, point = foot["ground"], (foot["link"], foot["point"])
             step = 1.0e-6
-            jacobian = np.stack([(self.chain.height(m.q + step * e, *point) - self.chain.height(m.q - step * e, *point)) / (2 * step)
-                                 for e in np.eye(len(self.joints))], axis=1)
-            depth = np.maximum(0.0, -self.chain.height(m.q, *point))
-            rate = -np.sum(jacobian * m.v, axis=1)
+            jacobian = np.stack([(self.chain.point(m.q + step * e, *point) - self.chain.point(m.q - step * e, *point)) / (2 * step)
+                                 for e in np.eye(len(self.joints))], axis=2)
+            depth = np.maximum(0.0, -self.chain.point(m.q, *point)[:, 2])
+            along, _, up = np.moveaxis(np.einsum("tij,tj->ti", jacobian, m.v), 1, 0)
             stiffness, damping, n = law["stiffness"]["value"], law["damping"]["value"], law["exponent"]
-            force = {"": np.maximum(0.0, depth ** n * (stiffness + damping * rate)), "stiffness": depth ** n * stiffness,
-                     "damping": depth ** n * damping * rate, "height": n * depth ** (n - 1.0) * stiffness}[change]
-            out += jacobian * force[:, None]
+            whole = np.maximum(0.0, depth ** n * (stiffness - damping * up))
+            normal = {"": whole, "friction": whole, "stiffness": depth ** n * stiffness, "damping": -depth ** n * damping * up,
+                      "height": n * depth ** (n - 1.0) * stiffness}[change]
+            holding = law["friction"]["value"] * np.tanh(along / law["slip_scale"]["value"]) if "friction" in law else 0.0 * along
+            out += -jacobian[:, 0] * (holding * normal)[:, None]
+            out += jacobian[:, 2] * (normal if change != "friction" else 0.0 * normal)[:, None]
         return out
 
     def stated(self, m):
@@ -169,7 +175,7 @@ def of_body(bodies):
 def numbers_terms(problem):
     """(term, prior deviation) of the stated numbers: masses, rotor inertias, gains, dampings, springs."""
     about, out = problem.case.about, []
-    for body in problem.chain.bodies:
+    for body in (b for b in problem.chain.bodies if b["mass"]):
         share = about["masses"][body["name"]]["standard_deviation"] / body["mass"]
         bodies = [dict(b, mass=b["mass"] * (b is body), inertia=b["inertia"] * (b is body)) for b in problem.chain.bodies]
         out.append((of_body(bodies), share))

@@ -32,6 +32,8 @@ class Chain:
 
     @staticmethod
     def body(name, inertial):
+        if inertial is None:
+            return {"name": name, "mass": 0.0, "center": np.zeros(3), "inertia": np.zeros((3, 3))}
         inertia = {k: float(v) for k, v in inertial.find("inertia").attrib.items()}
         matrix = np.array([[inertia["ixx"], inertia["ixy"], inertia["ixz"]], [inertia["ixy"], inertia["iyy"], inertia["iyz"]],
                            [inertia["ixz"], inertia["iyz"], inertia["izz"]]])
@@ -51,11 +53,11 @@ class Chain:
             out.append((rotation, origin, world_axis))
         return out
 
-    def height(self, q, link, point):
-        """Height of a point of a link."""
+    def point(self, q, link, point):
+        """Where a point of a link is."""
         names = [body["name"] for body in self.bodies]
         rotation, origin, _ = self.poses(q)[names.index(link)]
-        return (origin + rotation @ np.array(point))[:, 2]
+        return origin + rotation @ np.array(point)
 
     def needed(self, q, v, a, bodies=None):
         """Generalised forces that the motion needs."""

@@ -10,6 +10,7 @@ from generator.laws import KINDS
 from generator.machines import GRAVITY
 from generator.world import PERIOD
 
+AXES = {"rail": "0 0 1", "leg": "0 0 -1", "along": "1 0 0", "up": "0 0 1"}  # of sliding joints; the others turn about y
 AT_JOINTS = ("viscous_friction", "coulomb_friction", "stribeck_friction", "asymmetric_friction", "quadratic_drag",
              "constant_force", "spring", "nonlinear_spring", "hard_stop")
 AT_DRIVES = ("load_friction", "torque_ripple", "torque_gain", "actuator_lag", "actuator_delay", "rotor_inertia", "elastic_drive",
@@ -26,9 +27,10 @@ def allowed(machine):
         pairs += [("center_of_mass", link) for link in machine.stated["links"]] + [("gravity_tilt", "base")]
     sensors = [name for name, about in columns(machine).items() if about["is"].endswith("position")]
     pairs += [(kind, sensor) for kind in ("sensor_offset", "sensor_gain") for sensor in sensors]
-    if "ground" in machine.stated:
-        pairs += [("switch_delay", "c_toe")]
-        pairs += [(kind, "toe") for kind in ("ground_stiffness", "ground_damping", "ground_height")]
+    pairs += [("switch_delay", name) for name, about in columns(machine).items() if about["is"] == "contact switch"]
+    for place, ground in machine.stated.get("ground", {}).items():
+        pairs += [(kind, place) for kind in ("ground_stiffness", "ground_damping", "ground_height")]
+        pairs += [("ground_friction", place)] if "friction" in ground else []
     return [{"kind": kind, "place": place} for kind, place in pairs]
 
 
@@ -37,19 +39,26 @@ def urdf(machine):
     parent, origin = "world", 0.0
     for joint in machine.joints:
         name = machine.links[joint]
-        link = machine.stated["links"][name]
-        inertia, slides = link.get("inertia", 0.01), joint in machine.sliding
-        lines += [f'  <link name="{name}">',
-                  f'    <inertial><origin xyz="0 0 {-link.get("center", 0.0)}"/><mass value="{link["mass"]}"/>'
-                  f'<inertia ixx="{inertia}" ixy="0" ixz="0" iyy="{inertia}" iyz="0" izz="{inertia if slides else 0.1 * inertia}"/>'
-                  '</inertial>', '  </link>',
-                  f'  <joint name="{joint}" type="{"prismatic" if slides else "continuous"}">',
-                  f'    <parent link="{parent}"/><child link="{name}"/><origin xyz="0 0 {origin}"/>',
-                  f'    <axis xyz="{"0 0 1" if joint == "rail" else "0 0 -1" if slides else "0 1 0"}"/>']
-        lines += ['    <limit lower="-2" upper="2" effort="500" velocity="50"/>'] if slides else []
+        link = machine.stated["links"].get(name)
+        lines += urdf_link(name, link, joint in machine.sliding) + [
+            f'  <joint name="{joint}" type="{"prismatic" if joint in machine.sliding else "continuous"}">',
+            f'    <parent link="{parent}"/><child link="{name}"/><origin xyz="0 0 {origin}"/>',
+            f'    <axis xyz="{AXES.get(joint, "0 1 0")}"/>']
+        lines += ['    <limit lower="-2" upper="2" effort="500" velocity="50"/>'] if joint in machine.sliding else []
         lines += ['  </joint>']
-        parent, origin = name, -link.get("length", 0.0)
+        parent, origin = name, -(link or {}).get("length", 0.0)
     return "\n".join(lines + ["</robot>", ""])
+
+
+def urdf_link(name, link, slides):
+    """A link without mass has only a name."""
+    if not link:
+        return [f'  <link name="{name}"/>']
+    inertia = link.get("inertia", 0.01)
+    return [f'  <link name="{name}">',
+            f'    <inertial><origin xyz="0 0 {-link.get("center", 0.0)}"/><mass value="{link["mass"]}"/>'
+            f'<inertia ixx="{inertia}" ixy="0" ixz="0" iyy="{inertia}" iyz="0" izz="{inertia if slides else 0.1 * inertia}"/>'
+            '</inertial>', '  </link>']
 
 
 def quantity(value, unit, share=0.0):
@@ -81,8 +90,27 @@ def columns(machine):
     for joint in machine.stated["drives"]:
         out[f"m_{joint}"] = {"is": "motor position", "joint": joint, "unit": "rad",
                              "resolution": motion.SENSORS["motor"][0], "noise": motion.SENSORS["motor"][1]}
-    if "ground" in machine.stated:
+    if "toe" in machine.stated.get("ground", {}):
         out["c_toe"] = {"is": "contact switch", "foot": "toe", "unit": "1"}
+    return out
+
+
+NORMAL = "force = depth^exponent (stiffness + damping depth_rate), never pulling; depth below z = 0, in m"
+ALONG = "; along the ground -friction force tanh(slip / slip_scale), slip in m/s"
+
+
+def feet(machine):
+    """Points that may meet the ground. Effects of the ground are named at its place: the foot's name, where no other is given."""
+    out = []
+    for place, ground in machine.stated.get("ground", {}).items():
+        about = {"law": NORMAL, "exponent": ground["exponent"], "stiffness": quantity(ground["stiffness"], "N/m^1.5"),
+                 "damping": quantity(ground["damping"], "N s/m^2.5")}
+        if "friction" not in ground:
+            out.append({"name": place, "link": "foot", "point": [0.0, 0.0, -ground["length"]], "ground": about})
+            continue
+        about |= {"law": NORMAL + ALONG, "friction": quantity(ground["friction"], "1"), "slip_scale": quantity(ground["slip_scale"], "m/s")}
+        out += [{"name": f"corner_{i + 1}", "place": place, "link": "cube", "point": [px, 0.0, pz], "ground": about}
+                for i, (px, pz) in enumerate(machine.corners())]
     return out
 
 
@@ -100,12 +128,7 @@ def describe(identifier, machine, records):
     for joint, spring in machine.stated.get("springs", {}).items():
         case["springs"].append({"joint": joint, "stiffness": quantity(spring["stiffness"], "N/m", motion.KNOWN["spring"]),
                                 "rest": quantity(spring["rest"], "m")})
-    for foot, ground in machine.stated.get("ground", {}).items():
-        case["feet"].append({
-            "name": foot, "link": "foot", "point": [0.0, 0.0, -ground["length"]],
-            "ground": {"law": "force = depth^exponent (stiffness + damping depth_rate), never pulling; depth below z = 0, in m",
-                       "exponent": ground["exponent"], "stiffness": quantity(ground["stiffness"], "N/m^1.5"),
-                       "damping": quantity(ground["damping"], "N s/m^2.5")}})
+    case["feet"] = feet(machine)
     return case
 
 
@@ -116,31 +139,44 @@ def write_csv(path, units, table):
             file.write(",".join(f"{x:.7g}" for x in row) + "\n")
 
 
+def rounded(content):
+    """Numbers with ten digits, so that a truth is the same, letter by letter, where a library's sine differs in the last place."""
+    if isinstance(content, dict):
+        return {key: rounded(value) for key, value in content.items()}
+    if isinstance(content, (list, tuple)):
+        return [rounded(value) for value in content]
+    return float(f"{content:.10g}") if isinstance(content, float) else content
+
+
 def write_json(path, content):
     with open(path, "w", encoding="utf-8") as file:
         json.dump(content, file, indent=1, sort_keys=False)
         file.write("\n")
 
 
-def write_recording(path, case, table, withheld):
+def write_recording(path, case, table, withheld, period):
     """table: by column's name. Of a test recording only time and commands are written."""
     names = [n for n, c in case["columns"].items() if not withheld or c["is"] == "command"]
     units = [("t", "s")] + [(n, case["columns"][n]["unit"]) for n in names]
     count = len(next(iter(table.values())))
-    write_csv(path, units, np.column_stack([np.arange(count) * PERIOD] + [table[n] for n in names]))
+    write_csv(path, units, np.column_stack([np.arange(count) * period] + [table[n] for n in names]))
 
 
 def write_case(out, case, machine, tables, truth):
+    write_files(out, case, urdf(machine), tables, truth, PERIOD)
+
+
+def write_files(out, case, robot, tables, truth, period):
     """Two folders: cases/ID for entrants, truths/ID for the score."""
     open_folder, truth_folder = (os.path.join(out, kind, case["id"]) for kind in ("cases", "truths"))
     for folder in (open_folder, truth_folder):
         os.makedirs(folder, exist_ok=True)
     with open(os.path.join(open_folder, "robot.urdf"), "w", encoding="utf-8") as file:
-        file.write(urdf(machine))
+        file.write(robot)
     write_json(os.path.join(open_folder, "case.json"), case)
-    write_json(os.path.join(truth_folder, "truth.json"), truth)
+    write_json(os.path.join(truth_folder, "truth.json"), rounded(truth))
     for record in case["recordings"]:
         table = tables[record["file"]]
-        write_recording(os.path.join(open_folder, record["file"]), case, table, record["role"] == "test")
+        write_recording(os.path.join(open_folder, record["file"]), case, table, record["role"] == "test", period)
         if record["role"] == "test":
-            write_recording(os.path.join(truth_folder, record["file"]), case, table, False)
+            write_recording(os.path.join(truth_folder, record["file"]), case, table, False, period)

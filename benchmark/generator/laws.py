@@ -108,5 +108,6 @@ KINDS = {
     "switch_delay": "a contact switch that reads late or early",
     "ground_stiffness": "a ground that is stiffer or softer than stated",
     "ground_damping": "a ground that is damped otherwise than stated",
+    "ground_friction": "a ground that holds more or less along its surface than stated",
     "ground_height": "a ground that is higher or lower than stated",
 }

@@ -129,9 +129,81 @@ class Hopper:
         rate = v[1] - v[0]
         return max(0.0, depth ** self.ground["exponent"] * (self.ground["stiffness"] + self.ground["damping"] * rate))
 
+    def ground_forces(self, q, v):
+        normal = self.ground_force(q, v)
+        return [normal, -normal]
+
     def energy(self, q, v):
         kinetic = 0.5 * self.body * v[0] ** 2 + 0.5 * self.foot * (v[0] - v[1]) ** 2
         return kinetic + GRAVITY * self.cosine * (self.body * q[0] + self.foot * (q[0] - q[1]))
 
 
-MACHINES = {machine.name: machine for machine in (Pendulum, Arm, Hopper)}
+class Cube:
+    """A cube that is dropped onto a table, in a vertical plane: x (along), z (up) of its middle, and its angle.
+
+    The centre of mass is c below the middle: X = x - c sin(turn), Z = z - c cos(turn). With T = m (X'^2 + Z'^2) / 2 + I turn'^2 / 2 and
+    gravity g (sin(tilt), -cos(tilt)):  M = [[m, 0, -m c cos], [0, m, m c sin], [-m c cos, m c sin, I + m c^2]],
+    h = [m c sin turn'^2 - m g sin(tilt), m c cos turn'^2 + m g cos(tilt), m g c sin(turn + tilt)].
+
+    A corner at r = (rx, rz) from the middle has the speed (x' + turn' rz, z' - turn' rx). The table's force on it is the normal force
+    N = depth^n (k + d rate), never pulling, and -mu N tanh(slip / slip_scale) along the table.
+    """
+
+    name = "cube"
+    title = "A cube that is dropped onto a table, in a vertical plane"
+    joints = ("along", "up", "turn")
+    links = {"along": "slide", "up": "lift", "turn": "cube"}
+    sliding = ("along", "up")
+    half = 0.0524
+    stated = {
+        "links": {"cube": {"mass": 0.37, "center": 0.0, "inertia": 6.8e-4}},
+        "drives": {},
+        "ground": {"table": {"stiffness": 2.0e5, "damping": 1.2e5, "exponent": 1.5, "friction": 0.3, "slip_scale": 0.02}},
+    }
+
+    def __init__(self, numbers, tilt=0.0):
+        cube = numbers["links"]["cube"]
+        self.mass, self.center, self.inertia = cube["mass"], cube["center"], cube["inertia"]
+        self.ground = numbers["ground"]["table"]
+        self.tilt = tilt
+
+    @classmethod
+    def corners(cls):
+        return [(sx * cls.half, sz * cls.half) for sx in (-1, 1) for sz in (-1, 1)]
+
+    def equations(self, q, v):
+        moment = self.mass * self.center
+        sine, cosine = moment * math.sin(q[2]), moment * math.cos(q[2])
+        mass = ((self.mass, 0.0, -cosine), (0.0, self.mass, sine), (-cosine, sine, self.inertia + moment * self.center))
+        return mass, (sine * v[2] ** 2 - self.mass * GRAVITY * math.sin(self.tilt),
+                      cosine * v[2] ** 2 + self.mass * GRAVITY * math.cos(self.tilt),
+                      moment * GRAVITY * math.sin(q[2] + self.tilt))
+
+    def ground_forces(self, q, v):
+        """Generalised forces of the table on all corners."""
+        ground, out = self.ground, [0.0, 0.0, 0.0]
+        sine, cosine = math.sin(q[2]), math.cos(q[2])
+        for px, pz in self.corners():
+            rx, rz = px * cosine + pz * sine, pz * cosine - px * sine
+            depth = ground.get("height", 0.0) - q[1] - rz
+            if depth > 0.0:
+                rate = rx * v[2] - v[1]
+                normal = max(0.0, depth ** ground["exponent"] * (ground["stiffness"] + ground["damping"] * rate))
+                friction = -ground["friction"] * normal * math.tanh((v[0] + rz * v[2]) / ground["slip_scale"])
+                out = [out[0] + friction, out[1] + normal, out[2] + friction * rz - normal * rx]
+        return out
+
+    def energy(self, q, v):
+        mass, _ = self.equations(q, v)
+        kinetic = 0.5 * sum(v[i] * mass[i][j] * v[j] for i in range(3) for j in range(3))
+        height = (q[1] - self.center * math.cos(q[2])) * math.cos(self.tilt) - (q[0] - self.center * math.sin(q[2])) * math.sin(self.tilt)
+        return kinetic + self.mass * GRAVITY * height
+
+    def stored(self, q):
+        """Of the table's springs."""
+        n = self.ground["exponent"] + 1.0
+        depths = (-q[1] + px * math.sin(q[2]) - pz * math.cos(q[2]) for px, pz in self.corners())
+        return sum(self.ground["stiffness"] * max(0.0, depth) ** n / n for depth in depths)
+
+
+MACHINES = {machine.name: machine for machine in (Pendulum, Arm, Hopper, Cube)}

@@ -6,9 +6,10 @@ import numpy as np
 
 from generator.world import PERIOD
 
-LEVEL = {"pendulum": {"shoulder": 1.0}, "arm": {"shoulder": 1.8, "elbow": 0.45}, "hopper": {"leg": 34.0}}  # N m or N at the joint
-BAND = {"pendulum": (0.4, 5.0), "arm": (0.4, 5.0), "hopper": (1.5, 6.0)}  # Hz
+LEVEL = {"pendulum": {"shoulder": 1.0}, "arm": {"shoulder": 1.8, "elbow": 0.45}, "hopper": {"leg": 34.0}, "cube": {}}  # N m or N at the joint
+BAND = {"pendulum": (0.4, 5.0), "arm": (0.4, 5.0), "hopper": (1.5, 6.0), "cube": (1.0, 1.0)}  # Hz
 SECONDS = {"train": 3.0, "validation": 3.0, "test": 1.0}
+DROP_SECONDS = {"train": 1.2, "validation": 1.2, "test": 0.6}  # of the cube: it soon lies still
 # One standard deviation of what is stated, as a share.
 KNOWN = {"mass": 0.01, "rotor_inertia": 0.05, "damping": 0.1, "gain": 0.02, "spring": 0.01}
 # Resolution and noise (standard deviation) of positions, rad or m; a motor's at the motor.
@@ -41,13 +42,15 @@ def recordings(machine, rng):
     kind, out = machine.name, []
     for name, role, shape in (("train_1", "train", multisine), ("train_2", "train", chirp), ("validation_1", "validation", steps),
                               ("test_1", "test", steps), ("test_2", "test", multisine)):
-        count = int(SECONDS[role] / PERIOD)
+        count = int((DROP_SECONDS if kind == "cube" else SECONDS)[role] / PERIOD)
         commands = np.zeros((count, len(machine.joints)))
         for joint, level in LEVEL[kind].items():
             commands[:, machine.joints.index(joint)] = shape(rng, level, BAND[kind], count)
         if kind == "hopper":
             extension = 0.0196
             start = [0.4 + extension + rng.uniform(0.015, 0.035), extension]
+        elif kind == "cube":
+            start = [rng.uniform(-0.1, 0.1), rng.uniform(0.15, 0.35), rng.choice((-1, 1)) * rng.uniform(0.2, 0.6)]
         else:
             start = list(rng.uniform(-0.5, 0.5, len(machine.joints)))
         out.append((name, role, commands, start))

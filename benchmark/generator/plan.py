@@ -47,12 +47,25 @@ SINGLES = {
         ("ground_damping", "toe", {"scale": 1.8}, "1+scale"),
         ("ground_height", "toe", {"height": 0.004}, "height"),
     ],
+    "cube": [
+        ("payload", "cube", {"mass": 0.08, "distance": 0.04}, "mass"),
+        ("center_of_mass", "cube", {"shift": 0.008}, "shift"),
+        ("ground_stiffness", "table", {"scale": 0.6}, "1+scale"),
+        ("ground_damping", "table", {"scale": 1.8}, "1+scale"),
+        ("ground_friction", "table", {"scale": 1.6}, "1+scale"),
+        ("ground_height", "table", {"height": 0.004}, "height"),
+        ("quadratic_drag", "up", {"drag": 0.15}, "drag"),
+        ("viscous_friction", "turn", {"damping": 1.0e-3}, "damping"),
+        ("gravity_tilt", "base", {"angle": 0.05}, "angle"),
+        ("spring", "along", {"stiffness": 3.0, "rest": 0.0}, "stiffness"),
+    ],
 }
 
 PAIRS = {
     "pendulum": [(0, 5), (10, 8), (11, 9), (2, 13)],
     "arm": [(0, 3), (1, 6), (7, 8), (4, 0)],
     "hopper": [(0, 3), (5, 1), (7, 2), (6, 4)],
+    "cube": [(0, 4), (2, 8), (3, 7), (6, 1)],
 }
 
 OUTSIDE = {
@@ -68,7 +81,14 @@ OUTSIDE = {
                ("warming", "leg", {"damping": 30.0, "time": 0.8}),
                ("absorber", "rail", {"inertia": 0.6, "stiffness": 900.0, "damping": 1.0}),
                ("fading", "leg", {"loss": 0.5, "time": 1.2})],
+    "cube": [("patch_friction", "along", {"damping": 6.0, "center": 0.03, "width": 0.03}),
+             ("latch", "up", {"pull": 2.0, "center": 0.12, "width": 0.02}),
+             ("absorber", "turn", {"inertia": 2.0e-4, "stiffness": 0.15, "damping": 2.0e-4}),
+             ("warming", "along", {"damping": 3.0, "time": 0.4})],
 }
+
+# Machines in the order in which they came: numbers of the cases that were there before stay.
+BLOCKS = (("pendulum", "arm", "hopper"), ("cube",))
 
 
 def scaled(values, rule, strength, rng):
@@ -96,9 +116,10 @@ def effect(single, strength, rng):
     return {"kind": kind, "place": place, "values": scaled(values, rule, STRENGTHS[strength], rng)}
 
 
-def entries(everything):
+def entries(everything, machines):
     """(machine, group, strength, maker of the effects) of all cases, or of those of the first set: each single once."""
-    for machine, singles in SINGLES.items():
+    for machine in machines:
+        singles = SINGLES[machine]
         for index, single in enumerate(singles):
             names = list(STRENGTHS)
             for strength in names if everything else [names[(index + 1) % 3]]:

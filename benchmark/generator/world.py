@@ -46,6 +46,8 @@ class World:
             link = self.numbers["links"][place]
             self.numbers["links"][place] = (with_payload(link, values["mass"], values["distance"]) if "center" in link
                                             else dict(link, mass=link["mass"] + values["mass"]))
+        elif kind == "center_of_mass":
+            self.numbers["links"][place]["center"] += values["shift"]
         elif kind.startswith("ground_"):
             ground = self.numbers["ground"][place]
             if kind == "ground_height":
@@ -148,10 +150,9 @@ class World:
         return rates
 
     def _ground(self, q, v, force):
-        if hasattr(self.machine, "ground_force"):
-            normal = self.machine.ground_force(q, v)
-            force[0] += normal
-            force[1] -= normal
+        if hasattr(self.machine, "ground_forces"):
+            for j, acting in enumerate(self.machine.ground_forces(q, v)):
+                force[j] += acting
 
     def _absorb(self, y, q, v, rates, force):
         """A mass on a spring on the joint's link, with the stretch x: m (x'' + a) = -k x - d x'."""
@@ -196,9 +197,20 @@ class World:
 def solve(mass, force):
     if len(force) == 1:
         return [force[0] / mass[0][0]]
+    if len(force) == 3:
+        return solve_three(mass, force)
     (a, b), (c, d) = mass
     determinant = a * d - b * c
     return [(d * force[0] - b * force[1]) / determinant, (a * force[1] - c * force[0]) / determinant]
+
+
+def solve_three(mass, force):
+    """Symmetric 3 x 3, by cofactors."""
+    (a, b, c), (_, d, e), (_, _, f) = mass
+    A, B, C, D, E, F = d * f - e * e, c * e - b * f, b * e - c * d, a * f - c * c, b * c - a * e, a * d - b * b
+    x, y, z = force
+    determinant = a * A + b * B + c * C
+    return [(A * x + B * y + C * z) / determinant, (B * x + D * y + E * z) / determinant, (C * x + E * y + F * z) / determinant]
 
 
 def step(rates, t, y, u, size=STEP):

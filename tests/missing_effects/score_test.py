@@ -61,6 +61,14 @@ class Names(unittest.TestCase):
         given = names(answer("outside", [name(LAG, 0.4)]), truth("single", LAG))
         self.assertEqual(given, {"first": False, "group": False, "invented": 0, "lead": True})
 
+    def test_what_says_the_same_is_right_too(self):
+        hidden = truth("real", FRICTION)
+        hidden["also_right"] = [truth("", SPRING, LAG)["effects"]]
+        for given, met in ((answer("found", [name(SPRING, 0.9)], [name(LAG, 0.9)]), {SPRING, LAG}),
+                           (answer("found", [name(FRICTION, 0.9)]), {FRICTION}), (answer("found", [name(SPRING, 0.9)]), {SPRING, LAG})):
+            self.assertEqual(score.nearest_truth(given, hidden, CASE), met)
+        self.assertEqual(names(answer("found", [name(SPRING, 0.9)]), hidden)["first"], False)
+
     def test_effects_outside_the_list_have_no_name(self):
         self.assertEqual(score.true_names(truth("outside", ("latch", "hip")), CASE), set())
 
@@ -116,6 +124,10 @@ class WholeCase(unittest.TestCase):
     def test_prediction_in_floors(self):
         self.write("answers/c/test_1.csv", f"t [s],q_hip [rad]\n0,{1 + 3 * FLOOR}\n0.1,{2 - 4 * FLOOR}\n")
         self.assertAlmostEqual(self.row()["prediction"], math.sqrt((9.0 + 16.0) / 2.0), places=6)
+        judged = json.loads(json.dumps(CASE))
+        judged["columns"]["q_hip"]["judged_in"] = 0.5
+        self.write("cases/c/case.json", json.dumps(judged))
+        self.assertAlmostEqual(self.row()["prediction"], FLOOR / 0.5 * math.sqrt((9.0 + 16.0) / 2.0), places=6)
         self.write("answers/c/test_1.csv", "t [s],q_hip [rad]\n0,1\n0.1,nan\n")
         self.assertEqual(self.row()["prediction"], 1.0e4)
 

@@ -53,10 +53,10 @@ def candidates(problem):
             out[("center_of_mass", name)] = [("", of_body(shifted))]
         else:
             out[("payload", name)] = heavier
-    for foot in problem.case.about["feet"]:
-        for change in ("stiffness", "damping", "height"):
-            out[(f"ground_{change}", foot["name"])] = [
-                ("height" if change == "height" else "scale", lambda p, m, c=change: p.ground(m, c))]
+    for place in {foot.get("place", foot["name"]) for foot in problem.case.about["feet"]}:
+        for change in ("stiffness", "damping", "friction", "height"):
+            out[(f"ground_{change}", place)] = [
+                ("height" if change == "height" else "scale", lambda p, m, c=change, at=place: p.ground(m, c, at))]
     return {name: terms for name, terms in out.items() if name in problem.case.allowed}
 
 

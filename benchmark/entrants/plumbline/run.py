@@ -28,7 +28,7 @@ KINDS = {
     "rotor_inertia": "rotor_inertia", "added_mass": "payload", "payload": "payload", "com_shift": "center_of_mass",
     "gravity_tilt": "gravity_tilt", "encoder_offset": "sensor_offset", "encoder_scale": "sensor_gain",
     "switch_lateness": "switch_delay", "ground_stiffness_error": "ground_stiffness", "ground_damping_error": "ground_damping",
-    "ground_height_error": "ground_height",
+    "ground_friction_error": "ground_friction", "ground_height_error": "ground_height",
 }
 # (kind, parameter of the program) -> (name of the benchmark, power of the gear's ratio at a motor, sign)
 VALUES = {
@@ -39,7 +39,7 @@ VALUES = {
     ("actuator_delay", "delay"): ("delay", 0, 1), ("rotor_inertia", "inertia"): ("inertia", 2, 1),
     ("payload", "mass"): ("mass", 0, 1), ("spring", "stiffness"): ("stiffness", 0, 1),
     ("elastic_drive", "stiffness"): ("stiffness", 0, 1), ("backlash", "gap"): ("gap", 0, 1),
-    ("ground_stiffness", "scale"): ("scale", 0, 1), ("ground_damping", "scale"): ("scale", 0, 1),
+    ("ground_friction", "scale"): ("scale", 0, 1), ("ground_stiffness", "scale"): ("scale", 0, 1), ("ground_damping", "scale"): ("scale", 0, 1),
     ("ground_height", "height"): ("height", 0, 1),
 }
 WHY = 'assumed: "stated in case.json"'
@@ -57,13 +57,13 @@ def model_text(case):
     for link, mass in about["masses"].items():
         share = 100.0 * mass["standard_deviation"] / mass["value"]
         lines.append(f"  {link}: {{uncertainty: {share:.6g} %, {WHY}}}")
-    lines += ["coordinates:"] + [f"  {joint}: {{of: {{{joint}: 1}}}}" for joint in joints] + ["motors:"]
+    lines += ["coordinates:"] + [f"  {joint}: {{of: {{{joint}: 1}}}}" for joint in joints] + ["motors:"] * bool(case.drives)
     for joint, drive in case.drives.items():
         inertia, gain = drive["rotor_inertia"], drive["torque_gain"]
         lines += [f"  {joint}_motor:", "    command_unit: N m",
                   f"    rotor_inertia: {number(inertia['value'], 'kg m^2', inertia['standard_deviation'])}",
                   f"    torque_constant: {number(gain['value'], '1', gain['standard_deviation'])}"]
-    lines.append("ratios:")
+    lines += ["ratios:"] * bool(case.drives)
     for joint, drive in case.drives.items():
         lines.append(f"  {joint}: {{motor: {joint}_motor, ratio: {number(drive['ratio']['value'], drive['ratio']['unit'])}}}")
     lines += feet_lines(case) + effect_lines(case) + sensor_lines(case)
@@ -91,7 +91,17 @@ def effect_lines(case):
         lines.append(f"  - {{effect: ground_normal, at: {foot['name']}, values: {{"
                      f"stiffness: {number(ground['stiffness']['value'], 'N')}, damping: {number(ground['damping']['value'], 'N s/m')}, "
                      f"exponent: {number(ground['exponent'], '1')}}}}}")
-    return lines
+        if "friction" in ground:
+            lines.append(bristles(foot["name"], ground))
+    return lines if len(lines) > 1 else []
+
+
+def bristles(foot, ground):
+    """The program's friction on bristles that gives way as the stated law does: the same level, the same slope at standstill."""
+    slope = ground["friction"]["value"] / ground["slip_scale"]["value"]
+    return (f"  - {{effect: ground_friction, at: {foot}, values: {{bristle_stiffness: {number(2000, '1/m')}, "
+            f"bristle_damping: {number(slope, 's/m')}, friction: {number(ground['friction']['value'], '1')}, "
+            f"relaxation: {number(0.001, 's')}}}}}")
 
 
 def sensor_lines(case):
@@ -108,7 +118,7 @@ def sensor_lines(case):
 
 def trial_text(case, data, role):
     lines = ["plumbline: trial/1", f"title: {os.path.basename(data)}", "model: ../model.yaml", f"role: {role}", f"data: {data}",
-             "time: {column: t, unit: s}", "commands:"]
+             "time: {column: t, unit: s}"] + ["commands:"] * bool(case.drives)
     lines += [f"  {about['joint']}_motor: {{column: {name}, unit: N m}}" for name, about in case.columns.items()
               if about["is"] == "command"]
     lines.append("measured:")
@@ -150,8 +160,9 @@ def write_inputs(case, work):
     return given, asked
 
 
-def place_of(at):
-    return "base" if at == "world" else at.removesuffix("_motor")
+def place_of(case, at):
+    places = {foot["name"]: foot.get("place", foot["name"]) for foot in case.about["feet"]}
+    return "base" if at == "world" else places.get(at, at.removesuffix("_motor"))
 
 
 def values_of(case, kind, at, parameters):
@@ -161,7 +172,7 @@ def values_of(case, kind, at, parameters):
         if not rule or parameter.get("chosen") or parameter["standard_deviation"] in (None, "inf"):
             continue
         name, power, sign = rule
-        factor = sign * (case.drives[place_of(at)]["ratio"]["value"] ** power if at.endswith("_motor") else 1.0)
+        factor = sign * (case.drives[place_of(case, at)]["ratio"]["value"] ** power if at.endswith("_motor") else 1.0)
         middle, half = factor * parameter["value"], 1.96 * abs(factor) * parameter["standard_deviation"]
         out[name] = {"value": middle, "interval": [middle - half, middle + half]}
     return out
@@ -172,12 +183,14 @@ def translate(case, result):
     verdict = {"missing": "found", "nothing_missing": "nothing", "unexplained": "outside"}[result["verdict"]]
     slots = []
     for accepted in result["accepted"]:
-        kind, place = KINDS.get(accepted["effect"], "other"), place_of(accepted["at"])
+        kind, place = KINDS.get(accepted["effect"], "other"), place_of(case, accepted["at"])
+        if (kind, place) in [(n[0]["kind"], n[0]["place"]) for n in slots]:
+            continue  # the same ground at another corner
         share = min(0.95, max(0.05, accepted["selected_share"]))
         names = [{"kind": kind, "place": place, "confidence": share,
                   "values": values_of(case, kind, accepted["at"], accepted["parameters"])}]
         for rival in accepted["rivals"]:
-            name = (KINDS.get(rival["effect"], "other"), place_of(rival["at"]))
+            name = (KINDS.get(rival["effect"], "other"), place_of(case, rival["at"]))
             if name in case.allowed and name not in [(n["kind"], n["place"]) for n in names]:
                 names.append({"kind": name[0], "place": name[1], "confidence": 0.0})
         for name in names[1:]:
