@@ -1,7 +1,10 @@
 #include "validation/api/fitting.h"
 
+#include <utility>
+
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/fit/whole_fit.h"
 #include "validation/report/json_number.h"
 
 namespace plumbline::api {
@@ -51,16 +54,18 @@ std::string source_text(const validation::Data& data) {
 
 Fit fit(const Loaded& loaded, const std::vector<std::string>& patterns, const validation::FitOptions& options,
         const validation::Progress& progress) {
-  return validation::fit(loaded.model, *loaded.data,
-                         validation::matching(validation::free_parameters(loaded.model), patterns), options,
-                         progress);
+  std::vector<validation::FreeParameter> free =
+      validation::matching(validation::free_parameters(loaded.model), patterns);
+  return options.whole ? validation::fit_whole(loaded.model, *loaded.data, std::move(free), options, progress)
+                       : validation::fit(loaded.model, *loaded.data, std::move(free), options, progress);
 }
 
 nlohmann::json to_json(const Fit& fit, const Loaded& loaded, const validation::FitOptions& options) {
-  nlohmann::json json{{"model", loaded.model.file},          {"before", to_json(fit.before, loaded)},
-                      {"after", to_json(fit.after, loaded)}, {"windows", fit.windows},
-                      {"confidence", options.confidence},    {"iterations", fit.iterations},
-                      {"converged", fit.converged},          {"parameters", nlohmann::json::array()}};
+  nlohmann::json json{{"model", loaded.model.file},           {"before", to_json(fit.before, loaded)},
+                      {"after", to_json(fit.after, loaded)},  {"windows", fit.windows},
+                      {"confidence", options.confidence},     {"iterations", fit.iterations},
+                      {"converged", fit.converged},           {"whole", fit.whole},
+                      {"parameters", nlohmann::json::array()}};
   for (const FittedParameter& parameter : fit.parameters) {
     json["parameters"].push_back(to_json(parameter));
   }

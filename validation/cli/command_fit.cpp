@@ -85,16 +85,21 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   print_table({"parameter", "unit", "before", "after",
                fmt::format("{:g} % interval", 100.0 * options.fit.confidence), "strongest correlation"},
               rows);
-  fmt::print(
-      "\nIntervals from the scatter between {} windows ({} degrees of freedom) and from how the error "
-      "rises.\n",
-      fit.windows, freedom_text(fit));
+  if (fit.whole) {
+    fmt::print("\nIntervals from drawing the {} recordings with replacement.\n", fit.windows);
+  } else {
+    fmt::print(
+        "\nIntervals from the scatter between {} windows ({} degrees of freedom) and from how the error "
+        "rises.\n",
+        fit.windows, freedom_text(fit));
+  }
   if (!fit.converged) {
     fmt::print("Not settled after {} iterations: the values may still move (--iterations).\n",
                fit.iterations);
   }
   print_doubts(fit);
-  fmt::print("\nError in units of the floor: train {:.3f} before, {:.3f} after", fit.before.train,
+  fmt::print("\n{} in units of the floor: train {:.3f} before, {:.3f} after",
+             fit.whole ? "Mean error of a recording in one piece" : "Error", fit.before.train,
              fit.after.train);
   if (loaded.data->has(validation::Role::held_out)) {
     fmt::print("; held-out {:.3f} before, {:.3f} after\n", fit.before.held_out, fit.after.held_out);
@@ -229,7 +234,7 @@ void run_recipe(const Options& options, Outcome& outcome) {
 /// Trials and what to free, or trials and --standard, or a recipe.
 void check_usage(const CLI::App& command, const Options& options) {
   if (options.standard) {
-    for (const char* other : {"--free", "--recipe", "--seed", "--iterations"}) {
+    for (const char* other : {"--free", "--recipe", "--seed", "--iterations", "--whole"}) {
       if (command.count(other) > 0) {
         throw CLI::ExcludesError("--standard", other);
       }
@@ -253,7 +258,7 @@ void check_usage(const CLI::App& command, const Options& options) {
     }
     return;
   }
-  for (const char* other : {"trial", "--free", "--out", "--model", "--data", "--window"}) {
+  for (const char* other : {"trial", "--free", "--out", "--model", "--data", "--window", "--whole"}) {
     if (command.count(other) > 0) {
       throw CLI::ExcludesError("--recipe", other);
     }
@@ -283,6 +288,10 @@ void add_fit(CLI::App& app, Outcome& outcome) {
           "of --standard: frequency below which torques are compared, Hz; left out, the one whose values "
           "predict the train windows best")
       ->check(CLI::PositiveNumber);
+  command->add_flag(
+      "--whole", options->fit.whole,
+      "simulate each recording in one piece and search without derivatives: for motions through "
+      "many impacts, where no slope can be followed");
   command->add_option("--recipe", options->recipe, "carry out an identification sequence in place of one fit")
       ->type_name("FILE");
   command->add_option("--seed", options->seed, "of the true values and the noise of a recipe's twins");

@@ -67,6 +67,27 @@ std::string bound_reached(const FreeParameter& parameter, double value) {
   return "";
 }
 
+/// The same with those of logarithmic scale held, which say how sharp or stiff a law is: free from the
+/// beginning they run away while its place is still wrong, and then nothing moves that any more.
+std::vector<FreeParameter> with_sharpness_held(const std::vector<FreeParameter>& parameters,
+                                               const Eigen::VectorXd& values) {
+  std::vector<FreeParameter> held = parameters;
+  for (std::size_t p = 0; p < held.size(); ++p) {
+    if (held[p].scale == effects::Scale::logarithm) {
+      held[p].lower = held[p].upper = values[static_cast<Eigen::Index>(p)];
+    }
+  }
+  return held;
+}
+
+std::vector<int> all_of(const std::vector<FreeParameter>& parameters) {
+  std::vector<int> all(parameters.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
 void add_doubts(const FreeParameter& parameter, bool seen, const FitOptions& options,
                 FittedParameter& fitted) {
   if (!seen) {
@@ -98,27 +119,6 @@ void add_doubts(const FreeParameter& parameter, bool seen, const FitOptions& opt
                                          "): only a combination of the two is known"});
   }
 }
-
-/// The same with those of logarithmic scale held, which say how sharp or stiff a law is: free from the
-/// beginning they run away while its place is still wrong, and then nothing moves that any more.
-std::vector<FreeParameter> with_sharpness_held(const std::vector<FreeParameter>& parameters,
-                                               const Eigen::VectorXd& values) {
-  std::vector<FreeParameter> held = parameters;
-  for (std::size_t p = 0; p < held.size(); ++p) {
-    if (held[p].scale == effects::Scale::logarithm) {
-      held[p].lower = held[p].upper = values[static_cast<Eigen::Index>(p)];
-    }
-  }
-  return held;
-}
-
-std::vector<int> all_of(const std::vector<FreeParameter>& parameters) {
-  std::vector<int> all(parameters.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
-}  // namespace
 
 bool FittedParameter::seen() const {
   return std::none_of(doubts.begin(), doubts.end(),

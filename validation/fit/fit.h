@@ -17,6 +17,7 @@ struct FitOptions {
   double uncertain = 0.5;  ///< standard deviation as a share of the value from which a value is doubted
   double tied = 0.98;      ///< correlation from which two parameters are called inseparable
   double explained = 1.2;  ///< train error, floors, above which more is missing than values
+  bool whole = false;      ///< recordings in one piece, without derivatives (whole_fit.h)
 };
 
 /// Why a value should not be taken at its word.
@@ -43,6 +44,7 @@ struct Fit {
   int windows = 0;  ///< train windows
   int iterations = 0;
   bool converged = false;
+  bool whole = false;  ///< of fit_whole: `windows` are recordings, `iterations` generations
 };
 
 /// Fits the parameters on the train trials and predicts the held-out ones and the tests. The interval is
@@ -62,6 +64,10 @@ struct FitNumbers {
   Eigen::VectorXd before, after;
   Precision precision;
 };
+
+/// What speaks against taking the value at its word; `seen`: the data depend on it.
+void add_doubts(const FreeParameter& parameter, bool seen, const FitOptions& options,
+                FittedParameter& fitted);
 
 /// Intervals, partners and doubts.
 std::vector<FittedParameter> judge(const std::vector<FreeParameter>& parameters, const FitNumbers& numbers,

@@ -6,6 +6,7 @@
 #include "simulator/model/kinds.h"
 #include "simulator/trace/error.h"
 #include "validation/closed_loop/controllers.h"
+#include "validation/predict/flight_start.h"
 #include "validation/twin/twin.h"
 
 namespace plumbline::validation {
@@ -115,7 +116,7 @@ Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions
   }
   Predictor predictor(model, trial, {});
   model::Plant& plant = predictor.plant();
-  const Beginning start{predictor.initial_state({0, 0, trial.samples()}),
+  const Beginning start{state_at_start(predictor, trial, {0, 0, trial.samples()}),
                         command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
   Replay result;
   if (options.closed_loop) {

@@ -35,10 +35,11 @@ struct Replay {
   double seconds = 0.0;             ///< wall clock
 };
 
-/// Runs the trial's recorded commands from the state that its first samples show. In closed loop the trial's
-/// controllers run instead, sample and hold, on readings quantised as the sensors quantise them; motors
-/// without a controller keep their recorded commands. Throws InputError when a closed loop is asked for and
-/// the trial names no controller or the model no such sensor, std::runtime_error when the integrator fails.
+/// Runs the trial's recorded commands from the state that its first samples show (predict/flight_start.h). In
+/// closed loop the trial's controllers run instead, sample and hold, on readings quantised as the sensors
+/// quantise them; motors without a controller keep their recorded commands. Throws InputError when a closed
+/// loop is asked for and the trial names no controller or the model no such sensor, std::runtime_error when
+/// the integrator fails.
 Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions& options);
 
 /// Runs the experiment's commands from its start, at rest.

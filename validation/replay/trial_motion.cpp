@@ -1,5 +1,7 @@
 #include "validation/replay/trial_motion.h"
 
+#include "validation/predict/flight_start.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -38,7 +40,7 @@ TrialMotion trial_motion(const model::Model& model, const Trial& trial, const Tr
     if (options.stop != nullptr && options.stop->raised) {
       throw Stopped();
     }
-    predictor.predict(window, predictor.initial_state(window));
+    predictor.predict(window, state_at_start(predictor, trial, window));
     const Eigen::MatrixXd states = predictor.predicted_states();
     motion.predicted.middleCols(window.first, window.count) = states.topRows(predictor.plant().positions());
     add_forces(predictor.plant(), states, window.first, motion);
