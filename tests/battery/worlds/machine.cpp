@@ -102,6 +102,10 @@ void Machine::add_effects() {
       delay_[i] += effect["delay"];
       continue;
     }
+    if (effect.effect == "torque_saturation" || effect.effect == "voltage_limit") {
+      windings_.emplace_back(i, effect);
+      continue;
+    }
     Acting acting{effect, Vector::Zero(all), index, -1, is_compliance(effect)};
     if (index >= 0) {
       acting.row[n_ + index] = 1.0;
@@ -122,10 +126,12 @@ void Machine::add_effects() {
       }
     }
     acting.law = law_of(effect);
-    if (has_state(effect)) {
-      acting.state = static_cast<int>(states_++);
+    if (states_of(effect) > 0) {
+      acting.state = static_cast<int>(states_);
+      states_ += states_of(effect);
     }
-    load_matters_ = load_matters_ || effect.effect == "load_friction" || effect.effect == "gear_friction";
+    load_matters_ = load_matters_ || effect.effect == "load_friction" || effect.effect == "gear_friction" ||
+                    effect.effect == "gear_efficiency";
     acting_.push_back(acting);
   }
 }
@@ -176,7 +182,7 @@ double Machine::force_of(const Acting& one, const State& x, const Vector& full, 
     return compliance_force(one.effect, motion.x, motion.v);
   }
   return one.law != nullptr ? one.law(one.effect, motion)
-                            : force(one.effect, motion, one.state >= 0 ? x[one.state] : 0.0);
+                            : force(one.effect, motion, one.state >= 0 ? x.data() + one.state : nullptr);
 }
 
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
@@ -191,6 +197,9 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
       u = x[lag_state_[i]];
     }
     Q[n_ + m] = rig_.motors[i].torque_per_unit * u + bias_[i];
+    for (const auto& [motor, winding] : windings_) {
+      Q[n_ + m] = motor == i ? delivered(winding, Q[n_ + m], full_rate[n_ + m]) : Q[n_ + m];
+    }
   }
   for (const Acting& one : acting_) {
     const double load = one.motor >= 0 && !one.compliance ? loads[one.motor] : 0.0;
@@ -199,8 +208,8 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
     if (one.compliance) {
       passed[one.motor] -= acts;
     } else if (one.state >= 0) {
-      rate[one.state] =
-          state_rate(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x[one.state]);
+      state_rates(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x.data() + one.state,
+                  rate.data() + one.state);
     }
   }
   for (std::size_t g = 0; g < rig_.grounds.size(); ++g) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "tests/battery/worlds/ground.h"
 
@@ -110,6 +111,7 @@ class Machine {
   std::vector<Acting> acting_;
   std::vector<int> lag_state_;  // of each motor; -1: none
   std::vector<double> lag_, bias_, delay_;
+  std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action
   bool load_matters_ = false;
   Eigen::Index states_ = 0;
 };

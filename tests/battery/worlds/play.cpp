@@ -115,6 +115,9 @@ std::string why_not(const Case& one, bool mujoco) {
     return "MuJoCo has no robot that hops under a controller";
   }
   for (const Row& row : one.rows) {
+    if (mujoco && row.effect == "resonator") {
+      return "MuJoCo's robots have no mass on a spring";
+    }
     if (!is_known(row.effect)) {
       return row.effect == "boom" ? "the foreign worlds are flat: no boom bends their ways"
                                   : "no foreign world has " + row.effect;
