@@ -42,7 +42,7 @@ std::string row(const effects::Law& law) {
   const Declaration& declared = law.declaration();
   const EffectGuide* guide = find_guide(declared.name);
   const std::string picture =
-      effect_picture(law).empty() ? "" : "![](images/effects/" + declared.name + ".svg)";
+      effect_picture(law).empty() ? "" : "![" + declared.name + "](images/effects/" + declared.name + ".svg)";
   std::string says = "**" + declared.name + "** at " + place_of(declared) + ": " + declared.summary +
                      ".<br>`" + declared.equation + "`<br>" + parameters_of(declared) + ".";
   for (const std::string& state : declared.states) {

@@ -20,20 +20,25 @@ using effects::Values;
 
 using Curve = std::vector<std::pair<double, double>>;
 
-constexpr int kSteps = 4000;  // of a period; bristles and contacts are stiff
+constexpr int kSteps = 4000;  // of a period: bristles are stiff
 constexpr int kDrawn = 160;
 constexpr double kPeriod = 2.0 * effects::kPi;
 
-/// The first start, with what is nothing there at its typical size.
+/// One of the law's starts (of play, the widest), with what is nothing there at its typical size, and each
+/// further parameter smaller than the one before: two stiffnesses are to be seen as two.
 Values drawn_values(const effects::Law& law) {
-  const effects::Scales scales{1.0, 0.7, 1.0, 1.0, 1e-3, 0.0};
-  Values values = law.starts(scales).front();
+  constexpr double kLess = 0.6;
+  const effects::Scales scales{1.0, 0.7, 1.0, 1.0, 0.3, 0.0};
+  const std::vector<Values> starts = law.starts(scales);
+  Values values = law.sits_at(effects::Place::ratio) ? starts.back() : starts.front();
   const Values typical = law.typical(scales);
+  double share = 1.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const effects::Parameter& parameter = law.declaration().parameters[i];
     const bool is_rest = effects::is_rest(parameter);
     if (!parameter.structural && !is_rest && values[i] == parameter.null_value) {
-      values[i] = std::min(parameter.null_value + typical[i], parameter.upper);
+      values[i] = std::min(parameter.null_value + share * typical[i], parameter.upper);
+      share *= kLess;
     }
     values[i] = is_rest ? 0.0 : effects::is_smoothing_speed(parameter) ? 0.03 : values[i];
   }
