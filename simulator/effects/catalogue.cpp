@@ -15,6 +15,8 @@
 #include "simulator/effects/command_delay.h"
 #include "simulator/effects/coulomb.h"
 #include "simulator/effects/coulomb_directional.h"
+#include "simulator/effects/current_loop.h"
+#include "simulator/effects/encoder_eccentricity.h"
 #include "simulator/effects/encoder_offset.h"
 #include "simulator/effects/encoder_scale.h"
 #include "simulator/effects/gear_efficiency.h"
@@ -72,6 +74,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const TorqueSaturation>(),
       std::make_shared<const VoltageLimit>(),
       std::make_shared<const ActuatorLag>(),
+      std::make_shared<const CurrentLoop>(),
       std::make_shared<const CommandDelay>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
@@ -81,6 +84,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const Boom>(),
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
+      std::make_shared<const EncoderEccentricity>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

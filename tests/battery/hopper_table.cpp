@@ -72,6 +72,10 @@ const std::vector<Row>& hopper_rows() {
       {"hard_stop", "spring",
        "cubic_stiffness=4.6e4|1.7e5|5.1e5,damping=0.024|0.09|0.27,root_damping=0.0036|0.014|0.041,position=0."
        "02,side=1"},
+      {"current_loop", "drive", "time_constant=3e-5|1e-4|3e-4,damping_ratio=0.5"},
+      {"encoder_eccentricity", "height", "sine=3e-5|8e-5|2.4e-4,cosine=0,waves=100"},
+      {"encoder_eccentricity", "drive", "sine=1.5e-3|4e-3|0.01,cosine=1.5e-3|4e-3|0.01,waves=1"},
+      {"encoder_eccentricity", "spring", "sine=3e-5|8e-5|2.4e-4,cosine=0,waves=200"},
       {"torque_saturation", "drive", "sag=3e-4|8e-4|2.5e-3"},
       {"voltage_limit", "drive", "stall_torque=3+1.7|1.5|1.3,no_load_speed=200+30"},
       {"gear_efficiency", "drive",

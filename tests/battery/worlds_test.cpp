@@ -122,6 +122,8 @@ TEST(Worlds, DrivesAndWhatRattlesAreTheSimulatorsTwin) {
   for (const char* hidden :
        {"voltage_limit@mLA:stall_torque=1.2,no_load_speed=50", "torque_saturation@mLS:sag=0.2",
         "asymmetric_spring@thigh:stiffness_above=4,stiffness_below=1,rest=0.349",
+        "current_loop@mLA:time_constant=0.01,damping_ratio=0.4",
+        "encoder_eccentricity@mLS:sine=0.03,cosine=-0.02,waves=1",
         "resonator@leg_shape:inertia=0.08,frequency=6,damping_ratio=0.1"}) {
     EXPECT_LT(farthest("leg_bench", "robots/mabel/experiments/mimo.yaml", hidden, 0.5, false), kSame)
         << hidden;

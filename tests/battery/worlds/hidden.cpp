@@ -126,11 +126,12 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 18> kOthers{"torque_bias",
+constexpr std::array<const char*, 20> kOthers{"torque_bias",
                                               "torque_saturation",
                                               "voltage_limit",
                                               "torque_constant_error",
                                               "actuator_lag",
+                                              "current_loop",
                                               "command_delay",
                                               "rotor_inertia",
                                               "cable_stretch",
@@ -141,6 +142,7 @@ constexpr std::array<const char*, 18> kOthers{"torque_bias",
                                               "gravity_tilt",
                                               "encoder_offset",
                                               "encoder_scale",
+                                              "encoder_eccentricity",
                                               "ground_stiffness_error",
                                               "ground_damping_error",
                                               "ground_friction_error"};

@@ -94,6 +94,11 @@ void Machine::add_effects() {
       lag_state_[i] = static_cast<int>(states_++);
       continue;
     }
+    if (effect.effect == "current_loop") {
+      loops_.push_back({i, static_cast<int>(states_), effect});
+      states_ += 2;
+      continue;
+    }
     if (effect.effect == "torque_bias") {
       bias_[i] += effect["bias"];
       continue;
@@ -167,6 +172,9 @@ State Machine::start_state(const Vector& commands, const Vector& links_rate) con
     full_rate[n_ + static_cast<Eigen::Index>(i)] = rig_.motors[i].at(full_rate);
   }
   State x = state_of(full, full_rate);
+  for (const Loop& loop : loops_) {
+    x[loop.state] = commands[static_cast<Eigen::Index>(loop.motor)];
+  }
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
     if (lag_state_[i] >= 0) {
       x[lag_state_[i]] = commands[static_cast<Eigen::Index>(i)];
@@ -185,6 +193,16 @@ double Machine::force_of(const Acting& one, const State& x, const Vector& full, 
                             : force(one.effect, motion, one.state >= 0 ? x.data() + one.state : nullptr);
 }
 
+// A current on a spring w^2 and a damper 2 zeta w, pulled by what is asked for. States: current and its rate.
+double Machine::through(const Loop& loop, double asked, const State& x, State& rate) {
+  const double w = 1.0 / loop.effect["time_constant"];
+  const double current = x[loop.state];
+  rate[loop.state] = x[loop.state + 1];
+  rate[loop.state + 1] =
+      w * w * (asked - current) - 2.0 * loop.effect["damping_ratio"] * w * x[loop.state + 1];
+  return current;
+}
+
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                        const Vector& loads, Vector& passed, State& rate) const {
   passed = Vector::Zero(loads.size());
@@ -195,6 +213,9 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
     if (lag_state_[i] >= 0) {
       rate[lag_state_[i]] = (u - x[lag_state_[i]]) / lag_[i];
       u = x[lag_state_[i]];
+    }
+    for (const Loop& loop : loops_) {
+      u = loop.motor == i ? through(loop, u, x, rate) : u;
     }
     Q[n_ + m] = rig_.motors[i].torque_per_unit * u + bias_[i];
     for (const auto& [motor, winding] : windings_) {
@@ -300,7 +321,8 @@ Eigen::VectorXd readings_of(const Rig& rig, const Vector& full) {
                                                     : actual;
       }
     }
-    values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset;
+    values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset +
+                                           sensor.amplitude * std::cos(sensor.waves * actual - sensor.phase);
   }
   return values;
 }
