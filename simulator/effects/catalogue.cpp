@@ -6,6 +6,7 @@
 
 #include "simulator/effects/actuator_lag.h"
 #include "simulator/effects/added_mass.h"
+#include "simulator/effects/asymmetric_spring.h"
 #include "simulator/effects/backlash.h"
 #include "simulator/effects/boom.h"
 #include "simulator/effects/cable_stretch.h"
@@ -14,8 +15,11 @@
 #include "simulator/effects/command_delay.h"
 #include "simulator/effects/coulomb.h"
 #include "simulator/effects/coulomb_directional.h"
+#include "simulator/effects/current_loop.h"
+#include "simulator/effects/encoder_eccentricity.h"
 #include "simulator/effects/encoder_offset.h"
 #include "simulator/effects/encoder_scale.h"
+#include "simulator/effects/gear_efficiency.h"
 #include "simulator/effects/gear_friction.h"
 #include "simulator/effects/gravity_tilt.h"
 #include "simulator/effects/hard_stop.h"
@@ -26,15 +30,18 @@
 #include "simulator/effects/payload.h"
 #include "simulator/effects/preload.h"
 #include "simulator/effects/quadratic.h"
+#include "simulator/effects/resonator.h"
 #include "simulator/effects/rotor_inertia.h"
 #include "simulator/effects/spring.h"
 #include "simulator/effects/stribeck.h"
 #include "simulator/effects/switch_lateness.h"
 #include "simulator/effects/torque_bias.h"
 #include "simulator/effects/torque_constant_error.h"
+#include "simulator/effects/torque_saturation.h"
 #include "simulator/effects/unilateral_spring.h"
 #include "simulator/effects/viscous.h"
 #include "simulator/effects/viscous_directional.h"
+#include "simulator/effects/voltage_limit.h"
 
 namespace plumbline::effects {
 
@@ -49,6 +56,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const CoulombDirectional>(),
       std::make_shared<const LoadFriction>(),
       std::make_shared<const GearFriction>(),
+      std::make_shared<const GearEfficiency>(),
       std::make_shared<const Quadratic>(),
       std::make_shared<const Hysteresis>(),
       std::make_shared<const Backlash>(),
@@ -56,12 +64,17 @@ Catalogue Catalogue::all() {
       std::make_shared<const Spring>(),
       std::make_shared<const Preload>(),
       std::make_shared<const Hardening>(),
+      std::make_shared<const AsymmetricSpring>(),
       std::make_shared<const UnilateralSpring>(),
       std::make_shared<const HardStop>(),
+      std::make_shared<const Resonator>(),
       std::make_shared<const Cogging>(),
       std::make_shared<const TorqueBias>(),
       std::make_shared<const TorqueConstantError>(),
+      std::make_shared<const TorqueSaturation>(),
+      std::make_shared<const VoltageLimit>(),
       std::make_shared<const ActuatorLag>(),
+      std::make_shared<const CurrentLoop>(),
       std::make_shared<const CommandDelay>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
@@ -71,6 +84,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const Boom>(),
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
+      std::make_shared<const EncoderEccentricity>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

@@ -1,4 +1,5 @@
 // Hidden states: which the past determines, and what it makes of them.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,23 +13,42 @@ using Vector = Eigen::Map<const Eigen::VectorXd>;
 
 namespace {
 
-/// One step of the exponential Euler method, each of `count` states s on its own, `rate_of(s, rate)` their
-/// rates.
+/// One step of the exponential Euler method of one state s, `rate_of(s, rate)` its rate.
+template <typename RateOf>
+void step_state(const RateOf& rate_of, double h, double* s) {
+  const double step = 1e-6 * (1.0 + std::abs(*s));
+  const double moved = *s + step;
+  double rate = 0.0;
+  double other = 0.0;
+  rate_of(s, &rate);
+  rate_of(&moved, &other);
+  const double reach = h * (other - rate) / step;
+  *s += h * rate * (std::abs(reach) > 1e-8 ? std::expm1(reach) / reach : 1.0);
+}
+
+/// One step of `count` states that act on each other, a mass on a spring: by the linearly implicit midpoint
+/// rule, which neither damps nor excites what swings.
 template <typename Values, typename RateOf>
-void step_states(const RateOf& rate_of, double h, int count, double* s) {
+void step_coupled(const RateOf& rate_of, double h, int count, double* s) {
   const Values before = Vector(s, count);
   Values moved = before;
   Values rate(count);
   Values other(count);
   rate_of(before.data(), rate.data());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(count, count);
   for (int k = 0; k < count; ++k) {
     const double step = 1e-6 * (1.0 + std::abs(before[k]));
     moved[k] += step;
     rate_of(moved.data(), other.data());
     moved[k] = before[k];
-    const double reach = h * (other[k] - rate[k]) / step;
-    s[k] += h * rate[k] * (std::abs(reach) > 1e-8 ? std::expm1(reach) / reach : 1.0);
+    A.col(k) -= 0.5 * h / step * (other - rate);
   }
+  Eigen::Map<Eigen::VectorXd>(s, count) += h * A.partialPivLu().solve(Eigen::VectorXd(rate));
+}
+
+template <typename Values, typename RateOf>
+void step_states(const RateOf& rate_of, double h, int count, double* s) {
+  count == 1 ? step_state(rate_of, h, s) : step_coupled<Values>(rate_of, h, count, s);
 }
 
 }  // namespace

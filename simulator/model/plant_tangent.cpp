@@ -1,4 +1,5 @@
 // Linearisation of a Plant: what a window's sensitivities are built from.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -293,8 +294,15 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
   Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   if (slot.state >= 0) {
     actuator_chain(motor, x, here, now.data());
-    for (int i = slot.state; i < slot.state + slot.law->state_count(); ++i) {
-      mean[i] += (sample.change[i] / sample.period - now[i]) / A(i, i);
+    const int count = slot.law->state_count();
+    const Eigen::VectorXd behind =
+        Eigen::Map<const Eigen::VectorXd>(sample.change + slot.state, count) / sample.period -
+        now.segment(slot.state, count);
+    if (count == 1) {
+      mean[slot.state] += behind[0] / A(slot.state, slot.state);
+    } else {  // states that act on each other: a slope's own rate does not depend on where it is
+      mean.segment(slot.state, count) +=
+          A.block(slot.state, slot.state, count, count).fullPivLu().solve(behind);
     }
   }
   const double before = actuator_chain(motor, mean.data(), here, now.data());
@@ -303,9 +311,21 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
   const double after = actuator_chain(motor, mean.data(), delayed, up.data());
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
+  // Laws that feel what the motor delivers take their share of it: behind a voltage limit all.
+  double acts = after - before;
+  for (const ForceSlot& law : forces_) {
+    if (law.active && law.at_motor && law.motor == motor && !law.law->feels_gear_load()) {
+      const double* s = law.state >= 0 ? x + law.state : nullptr;
+      effects::Motion at = motion(law, x);
+      at.load = before;
+      acts -= law.law->force(at, s, values(law.effect));
+      at.load = after;
+      acts += law.law->force(at, s, values(law.effect));
+    }
+  }
   column = (up - now) / step;
   column.segment(nz_, nz_) +=
-      factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * ((after - before) / step);
+      factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * (acts / step);
   if (delay_change != 0.0) {
     // The command moves where it jumps, not in the middle of the sample.
     const double hold = sample.hold > 0.0 ? sample.hold : sample.period;

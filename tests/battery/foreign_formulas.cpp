@@ -110,6 +110,16 @@ void add_frictions(Laws& laws) {
                    },
                    nullptr}));
   laws.push_back(std::make_shared<const FormulaForce>(
+      declare(
+          "eddy_brake", "a brake of eddy currents, which lets go above its best speed",
+          "f = -2*peak*u/(1 + u^2), u = v/speed", Place::motor,
+          {strength("peak"), effects::fixed("speed", "rad/s", "at which it brakes most", 10.0, 1e-3, 1e4)}),
+      ForceFormula{[](const Motion& m, double, const double* p) {
+                     const double u = m.velocity / p[1];
+                     return -2.0 * p[0] * u / (1.0 + u * u);
+                   },
+                   nullptr}));
+  laws.push_back(std::make_shared<const FormulaForce>(
       declare("thickening_oil", "drag with the fourth power of the speed", "f = -drag*|v|^3*v", Place::motor,
               {strength("drag")}),
       ForceFormula{[](const Motion& m, double, const double* p) {
@@ -187,9 +197,23 @@ void add_actuators(Laws& laws) {
       TorqueFormula{[](double u, double heat, const double* p) { return u * (1.0 - p[0] * heat); },
                     [](double u, double, const double*) { return u * u; }}));
   laws.push_back(std::make_shared<const FormulaTorque>(
-      declare("saturating_iron", "a torque that bends with the current", "torque = u - bend*u^3",
-              Place::motor, {strength("bend")}),
-      TorqueFormula{[](double u, double, const double* p) { return u - p[0] * u * u * u; }, nullptr}));
+      declare("coarse_converter", "an amplifier that knows a few values only, with a soft edge between them",
+              "torque = u - step/(2*pi)*sin(2*pi*u/step)", Place::motor, {strength("step")}),
+      TorqueFormula{[](double u, double, const double* p) {
+                      return p[0] > 0.0
+                                 ? u - p[0] / (2.0 * effects::kPi) * std::sin(2.0 * effects::kPi * u / p[0])
+                                 : u;
+                    },
+                    nullptr}));
+  laws.push_back(std::make_shared<const FormulaTorque>(
+      declare(
+          "slewing_amplifier", "an amplifier that follows no faster than so much in a second",
+          "torque = given; given_rate = rate*tanh((u - given)/band)", Place::motor,
+          {strength("rate"), effects::fixed("band", "N m", "in which it follows as a lag", 0.01, 1e-6, 10.0)},
+          {"given"}),
+      TorqueFormula{
+          [](double u, double given, const double* p) { return p[0] > 0.0 ? given : u; },
+          [](double u, double given, const double* p) { return p[0] * std::tanh((u - given) / p[1]); }}));
   laws.push_back(std::make_shared<const FormulaTorque>(
       declare("dead_zone", "an amplifier that swallows small commands", "torque = u - zone*tanh(u/zone)",
               Place::motor, {strength("zone")}),

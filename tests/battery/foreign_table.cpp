@@ -14,7 +14,9 @@ const std::vector<Row>& leg_bench_foreign_rows() {
       {"detent", "shin", "force=0.4,centre=-0.349"},
       {"two_waves", "mLS", "force=0.02"},
       {"heating_motor", "mLA", "fade=0.04"},
-      {"saturating_iron", "mLS", "bend=0.007"},
+      {"coarse_converter", "mLS", "step=0.6"},
+      {"slewing_amplifier", "mLA", "rate=80"},
+      {"eddy_brake", "mLS", "peak=0.01,speed=10"},
       {"dead_zone", "mLA", "zone=0.02"},
       {"uneven_bridge", "mLS", "share=0.007"},
   };

@@ -116,6 +116,28 @@ TEST(Worlds, GearFrictionIsTheSimulatorsTwin) {
             kSame);
 }
 
+// The same physics written twice: circuits and magnetisation curves here, limits of torque there; a mass and
+// its spring here, a frequency and a damping ratio there.
+TEST(Worlds, DrivesAndWhatRattlesAreTheSimulatorsTwin) {
+  for (const char* hidden :
+       {"voltage_limit@mLA:stall_torque=1.2,no_load_speed=50", "torque_saturation@mLS:sag=0.2",
+        "asymmetric_spring@thigh:stiffness_above=4,stiffness_below=1,rest=0.349",
+        "current_loop@mLA:time_constant=0.01,damping_ratio=0.4",
+        "encoder_eccentricity@mLS:sine=0.03,cosine=-0.02,waves=1",
+        "resonator@leg_shape:inertia=0.08,frequency=6,damping_ratio=0.1"}) {
+    EXPECT_LT(farthest("leg_bench", "robots/mabel/experiments/mimo.yaml", hidden, 0.5, false), kSame)
+        << hidden;
+  }
+}
+
+// Away from standstill, where one of the two is smoothed and the other not.
+TEST(Worlds, GearEfficiencyIsTheSimulatorsTwin) {
+  EXPECT_LT(farthest("pendulum", "tests/robots/pendulum/experiments/steps.yaml",
+                     "gear_efficiency@drive:loss_driving=0.06,loss_driven=0.03,smoothing_speed=0.1", 0.5,
+                     false, 3.0),
+            1.0);
+}
+
 // Landings at fixed steps of 20 us: a floor, not a tenth of one.
 TEST(Worlds, HopperLandsAsTheSimulatorsTwin) {
   EXPECT_LT(farthest("hopper", "robots/hopper/experiments/bounce.yaml", "", 0.5, false), 1.0);

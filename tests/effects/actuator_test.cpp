@@ -46,6 +46,36 @@ TEST(ActuatorLag, StartsBelowAndAboveTheSamplePeriod) {
   EXPECT_GT(starts.back()[0], 5.0 * scales.period);
 }
 
+// Astrom and Murray, section 6.3: a step overshoots by exp(-pi zeta / sqrt(1 - zeta^2)) at t = pi / (w sqrt(1
+// - zeta^2)).
+TEST(CurrentLoop, OvershootsByTheTextbooksShare) {
+  const auto law = law_named("current_loop");
+  const double time_constant = 0.002, zeta = 0.4;
+  const Values p = values_of(*law, {{"time_constant", time_constant}, {"damping_ratio", zeta}});
+  const double root = std::sqrt(1.0 - zeta * zeta);
+  const Rate rate = [&](const State& s) {
+    State r(2);
+    law->state_rate(-1.5, s.data(), p.data(), r.data());
+    return r;
+  };
+  const double pi = 3.14159265358979323846;
+  const State s = rk4(rate, {0.0, 0.0}, pi * time_constant / root, 2000);
+  EXPECT_NEAR(law->torque(-1.5, s.data(), p.data()), -1.5 * (1.0 + std::exp(-pi * zeta / root)), 1e-9);
+  EXPECT_NEAR(s[1], 0.0, 1e-6);
+}
+
+TEST(CurrentLoop, SettlesWhereItStays) {
+  const auto law = law_named("current_loop");
+  const Values p = values_of(*law, {{"time_constant", 0.01}});
+  double state[2] = {0.0, 1.0};
+  double rate[2] = {1.0, 1.0};
+  law->settle(-1.7, p.data(), state);
+  law->state_rate(-1.7, state, p.data(), rate);
+  EXPECT_EQ(rate[0], 0.0);
+  EXPECT_EQ(rate[1], 0.0);
+  EXPECT_DOUBLE_EQ(law->torque(-1.7, state, p.data()), -1.7);
+}
+
 // Table VII (mLA left): bias 2.597e-2 N m.
 TEST(TorqueBias, AddsToTheCommand) {
   const auto law = law_named("torque_bias");

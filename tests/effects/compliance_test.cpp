@@ -172,6 +172,72 @@ TEST(UnilateralSpring, StartsOnBothSidesAroundTheCentre) {
   EXPECT_DOUBLE_EQ(above, below);
 }
 
+// Half a swing on either spring (Shaw and Holmes 1983): period = pi (sqrt(m/k1) + sqrt(m/k2)).
+TEST(AsymmetricSpring, SwingsHalfAPeriodOfEitherStiffness) {
+  const auto law = law_named("asymmetric_spring");
+  const double above = 18.0, below = 9.0, mass = 2.0;
+  const Values p = values_of(*law, {{"stiffness_above", above}, {"stiffness_below", below}, {"rest", 0.3}});
+  const double period = kPi * (std::sqrt(mass / above) + std::sqrt(mass / below));
+  const State end = swing(*law, p, mass, {0.3, 1.0}, period, 40000);
+  EXPECT_NEAR(end[0], 0.3, 1e-6);
+  EXPECT_NEAR(end[1], 1.0, 1e-6);
+}
+
+/// Link's position and velocity, the resonator's stretch and speed, after some time.
+State rattle(const ForceLaw& law, const Values& p, double inertia, const State& x, double duration) {
+  return rk4(
+      [&](const State& y) {
+        const Motion m{y[0], y[1], 0};
+        State rate{y[1], law.force(m, &y[2], p.data()) / inertia, 0.0, 0.0};
+        law.state_rate(m, &y[2], p.data(), &rate[2]);
+        return rate;
+      },
+      x, duration, 40000);
+}
+
+// Two free bodies on a spring swing against each other with w sqrt(1 + m/M) about their common centre, which
+// stays (Den Hartog, section 2.3).
+TEST(Resonator, SwingsAgainstAFreeLinkWithTheReducedMass) {
+  const auto law = law_named("resonator");
+  const double inertia = 0.3, link = 1.2, frequency = 4.0;
+  const Values p = values_of(*law, {{"inertia", inertia}, {"frequency", frequency}, {"damping_ratio", 0.0}});
+  const double half = 0.5 / (frequency * std::sqrt(1.0 + inertia / link));
+  const State turned = rattle(*law, p, link, {0.0, 0.0, 0.01, 0.0}, half);
+  EXPECT_NEAR(turned[2], -0.01, 1e-9);
+  EXPECT_NEAR(turned[0], 0.02 * inertia / (inertia + link), 1e-9);
+}
+
+// On a link that is moved as X sin(W t) the force's amplitude is m W^2 X times the transmissibility (Den
+// Hartog, equation 2.35).
+TEST(Resonator, TransmitsWhatTheTextbookSays) {
+  const auto law = law_named("resonator");
+  const double inertia = 0.3, frequency = 4.0, ratio = 0.1, X = 0.05;
+  const Values p =
+      values_of(*law, {{"inertia", inertia}, {"frequency", frequency}, {"damping_ratio", ratio}});
+  const double w = 2 * kPi * frequency;
+  for (const double share : {0.3, 1.0, 2.5}) {
+    const double W = share * w;
+    double largest = 0.0;
+    State x{0.0, 0.0, 0.0};  // stretch, speed, time
+    const Rate rate = [&](const State& y) {
+      State r(3, 1.0);
+      law->state_rate({X * std::sin(W * y[2]), X * W * std::cos(W * y[2]), 0}, y.data(), p.data(), r.data());
+      return r;
+    };
+    constexpr double kSettled = 4.0;  // s: exp(-10) is left of how it began
+    x = rk4(rate, x, kSettled, 20000);
+    for (int i = 0; i < 400; ++i) {
+      x = rk4(rate, x, 2 * kPi / W / 400, 4);
+      const Motion m{X * std::sin(W * x[2]), X * W * std::cos(W * x[2]), 0};
+      largest = std::max(largest, std::abs(law->force(m, x.data(), p.data())));
+    }
+    const double damped = 4 * ratio * ratio * share * share;
+    const double expected =
+        inertia * W * W * X * std::sqrt((1 + damped) / (std::pow(1 - share * share, 2) + damped));
+    EXPECT_NEAR(largest, expected, 1e-3 * expected);
+  }
+}
+
 // Holtz and Springob 1996: repeats every 2 pi/N, no mean, amplitude sqrt(A_s^2 + A_c^2).
 TEST(Cogging, RepeatsWithEveryCycleAndHasNoMean) {
   const auto law = law_named("cogging");

@@ -76,7 +76,7 @@ TEST(WrittenEquation, IsTheTorque) {
       }
     }
   }
-  EXPECT_EQ(compared, 3);
+  EXPECT_EQ(compared, 5);
 }
 
 TEST(WrittenEquation, IsTheReading) {

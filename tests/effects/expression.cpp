@@ -101,7 +101,7 @@ class Parser {
     skip_spaces();
     if (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0) return number();
     const std::string name = identifier();
-    if (!accept('(')) return lookup_(name);
+    if (!accept('(')) return name == "pi" ? 3.14159265358979323846 : lookup_(name);
     std::vector<double> arguments{sum()};
     while (accept(',')) arguments.push_back(sum());
     expect(')');

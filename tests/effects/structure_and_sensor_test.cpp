@@ -57,6 +57,26 @@ TEST(EncoderOffset, ShiftsTheReading) {
   EXPECT_DOUBLE_EQ(reading_of("encoder_offset", "offset", 0.25, -1.0), -0.75);
 }
 
+// A disc whose centre is e beside its axis shows, at radius r, the angle of a point seen from the centre: to
+// first order in e/r the true one and e/r sin(angle).
+TEST(EncoderEccentricity, IsADiscBesideItsAxis) {
+  const double e = 1e-4, r = 0.02;
+  const auto law = std::dynamic_pointer_cast<const SensorLaw>(Catalogue::all().find("encoder_eccentricity"));
+  const Values p = values_of(*law, {{"sine", -e / r}});
+  for (const double angle : {-2.5, -0.4, 0.0, 1.1, 3.0}) {
+    const double seen = std::atan2(r * std::sin(angle), r * std::cos(angle) + e);
+    EXPECT_NEAR(law->reading(angle, p.data()), seen, e * e / (r * r));
+  }
+}
+
+TEST(EncoderEccentricity, ReturnsAfterEveryWave) {
+  const auto law = std::dynamic_pointer_cast<const SensorLaw>(Catalogue::all().find("encoder_eccentricity"));
+  const Values p = values_of(*law, {{"sine", 0.01}, {"cosine", 0.02}, {"waves", 2.0}});
+  const double half = 3.14159265358979323846;
+  EXPECT_NEAR(law->reading(0.3 + half, p.data()) - law->reading(0.3, p.data()), half, 1e-14);
+  EXPECT_NEAR(law->reading(0.0, p.data()), 0.02, 1e-16);
+}
+
 TEST(EncoderScale, ScalesTheReading) {
   EXPECT_DOUBLE_EQ(reading_of("encoder_scale", "scale", 1.02, -2.0), -2.04);
 }

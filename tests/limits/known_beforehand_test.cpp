@@ -55,6 +55,31 @@ TEST(CarriedBristle, IsStableWhenStiff) {
   }
 }
 
+// A mass on a spring on a link that is held rings down as x0 exp(-zeta w t) cos(w' t) (but for the sine of
+// size zeta; Den Hartog, section 2.7): two states that act on each other. Each on its own would grow by a
+// quarter.
+TEST(CarriedResonator, RingsDownAsTheClosedFormSays) {
+  const double frequency = 6.0;
+  const double zeta = 0.01;
+  const model::Model model = with_effect(leg_bench(), "resonator", "leg_angle", {0.02, frequency, zeta});
+  const model::Plant plant(model, {});
+  const std::vector<int> states = plant.carried_states();
+  ASSERT_EQ(states.size(), 2U);
+  const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(plant.states());
+  Eigen::VectorXd x = still;
+  x[states[0]] = 0.01;
+  const double w = 2.0 * 3.14159265358979323846 * frequency;
+  const double damped = w * std::sqrt(1.0 - zeta * zeta);
+  for (int k = 1; k <= 300; ++k) {
+    plant.carry_states(still.data(), still.data(), idle.data(), 1e-3, x.data());
+    const double t = 1e-3 * k;
+    const double expected =
+        0.01 * std::exp(-zeta * w * t) * (std::cos(damped * t) + zeta * w / damped * std::sin(damped * t));
+    EXPECT_NEAR(x[states[0]], expected, 1e-4) << k;
+  }
+}
+
 // A lag of first order under a command that holds: torque = u (1 - exp(-t / tau)), behind a gain that it
 // follows.
 TEST(CarriedLag, FollowsTheCommandsAndNotTheWindow) {

@@ -154,6 +154,16 @@ const std::vector<Case>& cases() {
         {"lugre", "mLA", "stiffness", 0.5, kFastShare},
         {"lugre", "mLA", "bristle_damping", 0.016},
         {"lugre", "mLA", "viscous", 0.001}}},
+      {"torque_saturation", {"torque_saturation@mLA:sag=0.1"}, {{"torque_saturation", "mLA", "sag", 0.1}}},
+      {"asymmetric_spring",
+       {"asymmetric_spring@thigh:stiffness_above=2,stiffness_below=1,rest=0.3"},
+       {{"asymmetric_spring", "thigh", "stiffness_above", 1.0, kFastShare},
+        {"asymmetric_spring", "thigh", "rest", 0.3, kFastShare}}},
+      {"resonator",
+       {"resonator@leg_angle:inertia=0.02,frequency=6,damping_ratio=0.1"},
+       {{"resonator", "leg_angle", "inertia", 0.02},
+        {"resonator", "leg_angle", "frequency", 6.0},
+        {"resonator", "leg_angle", "damping_ratio", 0.1}}},
       {"command_delay", {"command_delay@mLA:delay=0.0023"}, {{"command_delay", "mLA", "delay", 0.01}}},
       {"rotor_inertia", {"rotor_inertia@mLA:inertia=3e-5"}, {{"rotor_inertia", "mLA", "inertia", 5e-4}}},
       {"gravity_tilt", {"gravity_tilt@world:roll=0,pitch=0.02"}, {{"gravity_tilt", "world", "pitch", 0.1}}},
@@ -195,6 +205,26 @@ INSTANTIATE_TEST_SUITE_P(
                           "smoothing_length=1e-5"},
                          knee(0.02)}),
     [](const auto& chosen) { return chosen.param.label; });
+
+// What a gear passes on depends on what it loses: the loop through the acceleration is left out of the
+// slopes.
+INSTANTIATE_TEST_SUITE_P(GearLoad, TangentByParameters,
+                         testing::Values(Case{
+                             "of_two_losses",
+                             {"gear_efficiency@mLA:loss_driving=0.02,loss_driven=0.01,smoothing_speed=0.5"},
+                             {{"gear_efficiency", "mLA", "loss_driving", 0.02, 0.03},
+                              {"gear_efficiency", "mLA", "loss_driven", 0.02, 0.03}}}),
+                         [](const auto& chosen) { return chosen.param.label; });
+
+// Where the limit is met within a sample, its share of the sample is not known.
+INSTANTIATE_TEST_SUITE_P(VoltageLimit, TangentByParameters,
+                         testing::Values(Case{"beside_a_torque_constant",
+                                              {"voltage_limit@mLA:stall_torque=1,no_load_speed=40",
+                                               "torque_constant_error@mLA:scale=1.1"},
+                                              {{"voltage_limit", "mLA", "stall_torque", 1.0, 0.04},
+                                               {"voltage_limit", "mLA", "no_load_speed", 40.0, 0.02},
+                                               {"torque_constant_error", "mLA", "scale", 1.0, 0.02}}}),
+                         [](const auto& chosen) { return chosen.param.label; });
 
 // The surfaces meet, part and rattle; where they part only the slopes of the force jump.
 INSTANTIATE_TEST_SUITE_P(Play, TangentByParameters,

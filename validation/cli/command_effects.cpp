@@ -1,9 +1,14 @@
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "simulator/effects/documentation.h"
 #include "simulator/trace/number_text.h"
+#include "simulator/trace/table.h"
 #include "validation/api/effects_json.h"
+#include "validation/api/effects_page.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 
@@ -58,13 +63,32 @@ void print_details(const Declaration& law) {
 }
 
 struct Options {
-  std::string name, json;
-  bool markdown = false;
+  std::string name, json, pictures;
+  bool markdown = false, page = false;
 };
+
+void write_pictures(const effects::Catalogue& catalogue, const std::string& folder) {
+  const std::filesystem::path into = folder;
+  std::filesystem::create_directories(into);
+  for (const auto& [file, picture] : api::effects_pictures(catalogue)) {
+    write_text_atomically((into / file).string(), picture);
+  }
+}
 
 void run(const Options& options) {
   const effects::Catalogue catalogue = api::named_effects(options.name);
+  if (!options.pictures.empty()) {
+    check_new_folder(options.pictures);
+  }
   write_json(api::effects_json(catalogue), options.json);
+  if (!options.pictures.empty()) {
+    write_pictures(catalogue, options.pictures);
+    return;
+  }
+  if (options.page) {
+    fmt::print("{}", api::effects_page(catalogue));
+    return;
+  }
   if (options.markdown) {
     fmt::print("{}", effects::documentation_table(catalogue));
     return;
@@ -83,6 +107,12 @@ void add_effects(CLI::App& app, Outcome& /*outcome*/) {
   command->add_option("name", options->name, "the effect to describe in full; none: all of them")
       ->type_name("NAME");
   command->add_flag("--markdown", options->markdown, "print the table of the documentation");
+  command->add_flag("--page", options->page,
+                    "print docs/effects.md: all effects by domain, and how to tell them apart");
+  command
+      ->add_option("--pictures", options->pictures,
+                   "write the page's pictures into FOLDER, one SVG for each effect")
+      ->type_name("FOLDER");
   add_json_option(*command, options->json);
   command->footer("Example:\n  plumbline effects cable_stretch");
   command->callback([options] { run(*options); });

@@ -15,16 +15,31 @@ namespace {
 const std::vector<std::vector<std::string>>& families() {
   static const std::vector<std::vector<std::string>> kFamilies{
       {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
-       "hysteresis", "load_friction", "gear_friction"},
-      {"spring", "preload", "unilateral_spring", "hardening", "hard_stop"},
-      {"actuator_lag", "command_delay"},
-      {"torque_constant_error", "torque_bias"},
+       "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
+      {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
+      {"actuator_lag", "current_loop", "command_delay"},
+      {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit"},
       {"cable_stretch", "backlash"},
-      {"encoder_offset", "encoder_scale"}};
+      {"encoder_offset", "encoder_scale", "encoder_eccentricity"}};
   return kFamilies;
 }
 
 constexpr int kFriction = 0;
+
+/// A law that is costly to try, and laws without states that depend on the same (command, velocity,
+/// acceleration) and take a share of what it does.
+struct Forerunners {
+  std::string law;
+  std::vector<std::string> of;
+};
+
+const std::vector<Forerunners>& forerunners() {
+  static const std::vector<Forerunners> kForerunners{
+      {"voltage_limit", {"torque_saturation", "torque_constant_error", "viscous", "quadratic"}},
+      {"current_loop", {"command_delay", "torque_constant_error"}},
+      {"resonator", {"viscous", "spring", "hardening", "rotor_inertia"}}};
+  return kForerunners;
+}
 
 int family_of(const effects::Law& law) {
   const std::string& name = law.declaration().name;
@@ -37,6 +52,18 @@ int family_of(const effects::Law& law) {
 }
 
 }  // namespace
+
+bool has_forerunners(const effects::Law& law) {
+  return std::any_of(forerunners().begin(), forerunners().end(),
+                     [&](const Forerunners& one) { return one.law == law.declaration().name; });
+}
+
+bool is_forerunner(const effects::Law& first, const effects::Law& law) {
+  return std::any_of(forerunners().begin(), forerunners().end(), [&](const Forerunners& one) {
+    return one.law == law.declaration().name &&
+           std::find(one.of.begin(), one.of.end(), first.declaration().name) != one.of.end();
+  });
+}
 
 bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
 

@@ -26,4 +26,10 @@ bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& othe
 
 bool is_friction(const effects::Law& law);
 
+/// Is the law so costly to try (it has states, or is nothing but beyond a threshold) that laws which depend
+/// on the same are asked first?
+bool has_forerunners(const effects::Law& law);
+/// Is `first` one of them?
+bool is_forerunner(const effects::Law& first, const effects::Law& law);
+
 }  // namespace plumbline::validation

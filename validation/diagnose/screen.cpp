@@ -139,6 +139,40 @@ void keep_where_friction_promises(const std::vector<Candidate>& candidates,
   starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
 }
 
+/// Laws that are costly to try, at the places where one that depends on the same promises a noticeable share
+/// of what is above the floor, and there the most.
+void keep_behind_forerunners(const std::vector<Candidate>& candidates,
+                             const std::vector<Hypothesis>& tangents, const Stage& stage,
+                             std::vector<Hypothesis>& starts) {
+  constexpr double kNoticeable = 0.1;
+  constexpr std::size_t kPlaces = 2;
+  constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
+  const double now = stage.estimate.predicted.scores.square();
+  const double most = now - kNoticeable * std::max(now - kFloors, 0.0);
+  const TiedPlaces places(stage.model);
+  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
+    return candidates[static_cast<std::size_t>(one.candidate)];
+  };
+  const auto is_kept = [&](const Hypothesis& start) {
+    const Candidate& costly = candidate_of(start);
+    std::vector<std::string> first;  // places, the most promising first
+    for (const Hypothesis& one : tangents) {
+      const Candidate& candidate = candidate_of(one);
+      if (first.size() < kPlaces && one.promised() < most && is_forerunner(*candidate.law, *costly.law) &&
+          std::find(first.begin(), first.end(), candidate.at) == first.end()) {
+        first.push_back(candidate.at);
+      }
+    }
+    return std::any_of(first.begin(), first.end(),
+                       [&](const std::string& at) { return places.are_one(at, costly.at); });
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(),
+                              [&](const Hypothesis& start) {
+                                return has_forerunners(*candidate_of(start).law) && !is_kept(start);
+                              }),
+               starts.end());
+}
+
 constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
 
 /// The third of the starts that promises most on a few windows.
@@ -244,6 +278,7 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
   sort_by_promise(found);
   keep_where_friction_promises(candidates, found, starts);
+  keep_behind_forerunners(candidates, found, stage, starts);
   const Part part = enough_to_tell(stage, data);
   constexpr std::size_t kMany = 60;
   if (data.has_segments() || starts.size() > kMany) {

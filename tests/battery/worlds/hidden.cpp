@@ -45,7 +45,7 @@ struct Named {
   Law law;
 };
 
-constexpr std::array<Named, 22> kForces{{
+constexpr std::array<Named, 26> kForces{{
     {"viscous", [](const Hidden& e, const PlaceMotion& m) { return -e["damping"] * m.v; }},
     {"coulomb", [](const Hidden& e, const PlaceMotion& m) { return -e["level"] * sign_of(e, m.v); }},
     {"stribeck", [](const Hidden& e, const PlaceMotion& m) { return -sliding(e, m.v) * sign_of(e, m.v); }},
@@ -76,7 +76,18 @@ constexpr std::array<Named, 22> kForces{{
      }},
     {"unilateral_spring", one_sided_spring},
     {"hard_stop", stop_force},
+    {"gear_efficiency",
+     [](const Hidden& e, const PlaceMotion& m) {
+       const double share = m.load * m.v > 0.0 ? e["loss_driving"] : e["loss_driven"];
+       return -share * std::abs(m.load) * sign_of(e, m.v);
+     }},
+    {"asymmetric_spring",
+     [](const Hidden& e, const PlaceMotion& m) {
+       const double out = m.x - e["rest"];
+       return -e["stiffness_above"] * std::max(out, 0.0) - e["stiffness_below"] * std::min(out, 0.0);
+     }},
     {"lugre", nullptr},
+    {"resonator", nullptr},
     // Laws that no catalogue has.
     {"sticky_spot",
      [](const Hidden& e, const PlaceMotion& m) {
@@ -89,6 +100,10 @@ constexpr std::array<Named, 22> kForces{{
      }},
     {"thickening_oil",
      [](const Hidden& e, const PlaceMotion& m) { return -e["drag"] * std::pow(std::abs(m.v), 3) * m.v; }},
+    {"eddy_brake",
+     [](const Hidden& e, const PlaceMotion& m) {
+       return -2.0 * e["peak"] / (m.v / e["speed"] + e["speed"] / m.v);  // at rest: -0
+     }},
     {"detent",
      [](const Hidden& e, const PlaceMotion& m) {
        const double u = (m.x - e["centre"]) / e["width"];
@@ -111,9 +126,12 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 16> kOthers{"torque_bias",
+constexpr std::array<const char*, 20> kOthers{"torque_bias",
+                                              "torque_saturation",
+                                              "voltage_limit",
                                               "torque_constant_error",
                                               "actuator_lag",
+                                              "current_loop",
                                               "command_delay",
                                               "rotor_inertia",
                                               "cable_stretch",
@@ -124,6 +142,7 @@ constexpr std::array<const char*, 16> kOthers{"torque_bias",
                                               "gravity_tilt",
                                               "encoder_offset",
                                               "encoder_scale",
+                                              "encoder_eccentricity",
                                               "ground_stiffness_error",
                                               "ground_damping_error",
                                               "ground_friction_error"};
@@ -166,9 +185,11 @@ Law law_of(const Hidden& effect) {
   return found == nullptr ? nullptr : found->law;
 }
 
-bool has_state(const Hidden& effect) { return effect.effect == "lugre"; }
+int states_of(const Hidden& effect) {
+  return effect.effect == "resonator" ? 2 : effect.effect == "lugre" ? 1 : 0;
+}
 
-double force(const Hidden& effect, const PlaceMotion& m, double state) {
+double force(const Hidden& effect, const PlaceMotion& m, const double* states) {
   const Named* found = find(effect.effect);
   if (found == nullptr) {
     return 0.0;
@@ -176,13 +197,42 @@ double force(const Hidden& effect, const PlaceMotion& m, double state) {
   if (found->law != nullptr) {
     return found->law(effect, m);
   }
-  return -effect["stiffness"] * state - effect["bristle_damping"] * state_rate(effect, m, state) -
-         effect["viscous"] * m.v;
+  double rates[2] = {0.0, 0.0};
+  state_rates(effect, m, states, rates);
+  if (effect.effect == "resonator") {
+    return -effect["inertia"] * rates[1];  // what pulls the mass pulls the link back
+  }
+  return -effect["stiffness"] * states[0] - effect["bristle_damping"] * rates[0] - effect["viscous"] * m.v;
 }
 
-// Canudas de Wit, Olsson, Astrom and Lischinsky (1995), equations 1 and 2.
-double state_rate(const Hidden& effect, const PlaceMotion& m, double state) {
-  return m.v - effect["stiffness"] * std::abs(m.v) * state / sliding(effect, m.v);
+// Bristles: Canudas de Wit, Olsson, Astrom and Lischinsky (1995), equations 1 and 2. A mass m on a spring k
+// and a damper c: m s'' = -k e - c e', e = s - x its stretch; states e and s'.
+void state_rates(const Hidden& effect, const PlaceMotion& m, const double* states, double* rates) {
+  if (effect.effect == "resonator") {
+    const double mass = effect["inertia"];
+    const double spring = mass * std::pow(6.283185307179586 * effect["frequency"], 2);
+    const double damper = 2.0 * effect["damping_ratio"] * std::sqrt(spring * mass);
+    rates[0] = states[1] - m.v;
+    rates[1] = -(spring * states[0] + damper * rates[0]) / mass;
+    return;
+  }
+  rates[0] = m.v - effect["stiffness"] * std::abs(m.v) * states[0] / sliding(effect, m.v);
+}
+
+// The circuit of the winding, in units in which the torque constant is 1: voltage and speed, current and
+// torque are then the same number, and R = voltage/stall torque.
+double delivered(const Hidden& effect, double asked, double v) {
+  if (effect.effect == "torque_saturation") {
+    const double limit = 1.0 / std::sqrt(effect["sag"]);
+    return limit * std::sin(std::atan(asked / limit));
+  }
+  const double voltage = effect["no_load_speed"];
+  const double resistance = voltage / effect["stall_torque"];
+  const double needed = resistance * asked + v;
+  if (std::abs(needed) <= voltage) {
+    return asked;
+  }
+  return ((needed > 0.0 ? voltage : -voltage) - v) / resistance;
 }
 
 bool is_compliance(const Hidden& effect) {

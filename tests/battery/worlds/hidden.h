@@ -26,15 +26,19 @@ struct PlaceMotion {
 
 /// Is it a force of its place that follows from motion and load alone?
 bool is_force(const Hidden& effect);
-/// Does it need a state of its own (bristles)?
-bool has_state(const Hidden& effect);
+/// How many states of its own does it need (bristles, a mass on a spring)?
+int states_of(const Hidden& effect);
 using Law = double (*)(const Hidden& effect, const PlaceMotion& m);
 /// The force of an effect that follows from motion and load alone; nullptr for others.
 Law law_of(const Hidden& effect);
-/// Force on the place; `state` as of the bristles. The sign of a velocity is tanh(v/s), with s a third of the
-/// effect's smoothing_speed.
-double force(const Hidden& effect, const PlaceMotion& m, double state);
-double state_rate(const Hidden& effect, const PlaceMotion& m, double state);
+/// Force on the place; `states`: states_of() of them. The sign of a velocity is tanh(v/s), with s a third of
+/// the effect's smoothing_speed.
+double force(const Hidden& effect, const PlaceMotion& m, const double* states);
+void state_rates(const Hidden& effect, const PlaceMotion& m, const double* states, double* rates);
+
+/// Of a motor's winding and iron (voltage_limit, torque_saturation): the torque that comes of what the
+/// amplifier is asked for at speed v.
+double delivered(const Hidden& effect, double asked, double v);
 
 /// Force on the motor's side of a gear that gives: x and v of its wind-up, motor less ratio times output.
 bool is_compliance(const Hidden& effect);

@@ -94,12 +94,21 @@ void Machine::add_effects() {
       lag_state_[i] = static_cast<int>(states_++);
       continue;
     }
+    if (effect.effect == "current_loop") {
+      loops_.push_back({i, static_cast<int>(states_), effect});
+      states_ += 2;
+      continue;
+    }
     if (effect.effect == "torque_bias") {
       bias_[i] += effect["bias"];
       continue;
     }
     if (effect.effect == "command_delay") {
       delay_[i] += effect["delay"];
+      continue;
+    }
+    if (effect.effect == "torque_saturation" || effect.effect == "voltage_limit") {
+      windings_.emplace_back(i, effect);
       continue;
     }
     Acting acting{effect, Vector::Zero(all), index, -1, is_compliance(effect)};
@@ -122,10 +131,12 @@ void Machine::add_effects() {
       }
     }
     acting.law = law_of(effect);
-    if (has_state(effect)) {
-      acting.state = static_cast<int>(states_++);
+    if (states_of(effect) > 0) {
+      acting.state = static_cast<int>(states_);
+      states_ += states_of(effect);
     }
-    load_matters_ = load_matters_ || effect.effect == "load_friction" || effect.effect == "gear_friction";
+    load_matters_ = load_matters_ || effect.effect == "load_friction" || effect.effect == "gear_friction" ||
+                    effect.effect == "gear_efficiency";
     acting_.push_back(acting);
   }
 }
@@ -161,6 +172,9 @@ State Machine::start_state(const Vector& commands, const Vector& links_rate) con
     full_rate[n_ + static_cast<Eigen::Index>(i)] = rig_.motors[i].at(full_rate);
   }
   State x = state_of(full, full_rate);
+  for (const Loop& loop : loops_) {
+    x[loop.state] = commands[static_cast<Eigen::Index>(loop.motor)];
+  }
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
     if (lag_state_[i] >= 0) {
       x[lag_state_[i]] = commands[static_cast<Eigen::Index>(i)];
@@ -176,7 +190,17 @@ double Machine::force_of(const Acting& one, const State& x, const Vector& full, 
     return compliance_force(one.effect, motion.x, motion.v);
   }
   return one.law != nullptr ? one.law(one.effect, motion)
-                            : force(one.effect, motion, one.state >= 0 ? x[one.state] : 0.0);
+                            : force(one.effect, motion, one.state >= 0 ? x.data() + one.state : nullptr);
+}
+
+// A current on a spring w^2 and a damper 2 zeta w, pulled by what is asked for. States: current and its rate.
+double Machine::through(const Loop& loop, double asked, const State& x, State& rate) {
+  const double w = 1.0 / loop.effect["time_constant"];
+  const double current = x[loop.state];
+  rate[loop.state] = x[loop.state + 1];
+  rate[loop.state + 1] =
+      w * w * (asked - current) - 2.0 * loop.effect["damping_ratio"] * w * x[loop.state + 1];
+  return current;
 }
 
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
@@ -190,7 +214,13 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
       rate[lag_state_[i]] = (u - x[lag_state_[i]]) / lag_[i];
       u = x[lag_state_[i]];
     }
+    for (const Loop& loop : loops_) {
+      u = loop.motor == i ? through(loop, u, x, rate) : u;
+    }
     Q[n_ + m] = rig_.motors[i].torque_per_unit * u + bias_[i];
+    for (const auto& [motor, winding] : windings_) {
+      Q[n_ + m] = motor == i ? delivered(winding, Q[n_ + m], full_rate[n_ + m]) : Q[n_ + m];
+    }
   }
   for (const Acting& one : acting_) {
     const double load = one.motor >= 0 && !one.compliance ? loads[one.motor] : 0.0;
@@ -199,8 +229,8 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
     if (one.compliance) {
       passed[one.motor] -= acts;
     } else if (one.state >= 0) {
-      rate[one.state] =
-          state_rate(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x[one.state]);
+      state_rates(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x.data() + one.state,
+                  rate.data() + one.state);
     }
   }
   for (std::size_t g = 0; g < rig_.grounds.size(); ++g) {
@@ -291,7 +321,8 @@ Eigen::VectorXd readings_of(const Rig& rig, const Vector& full) {
                                                     : actual;
       }
     }
-    values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset;
+    values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset +
+                                           sensor.amplitude * std::cos(sensor.waves * actual - sensor.phase);
   }
   return values;
 }

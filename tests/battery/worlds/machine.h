@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "tests/battery/worlds/ground.h"
 
@@ -68,6 +69,13 @@ class Machine {
     Law law = nullptr;  // nullptr: it needs a state, or is a compliance
   };
 
+  /// A current loop of second order.
+  struct Loop {
+    std::size_t motor = 0;
+    int state = 0;
+    Hidden effect;
+  };
+
   /// A set of light coordinates, a bit each.
   using Creeping = unsigned;
   /// A coordinate that creeps behind a stop.
@@ -96,6 +104,7 @@ class Machine {
   void step(const Vector& commands, double h, State& x) const;
   std::vector<bool> sides(const State& x) const;
   void rates(const Vector& commands, Creeping who, const State& x, State& rate) const;
+  static double through(const Loop& loop, double asked, const State& x, State& rate);
   Vector forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                 const Vector& loads, Vector& passed, State& rate) const;
 
@@ -110,6 +119,8 @@ class Machine {
   std::vector<Acting> acting_;
   std::vector<int> lag_state_;  // of each motor; -1: none
   std::vector<double> lag_, bias_, delay_;
+  std::vector<Loop> loops_;
+  std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action
   bool load_matters_ = false;
   Eigen::Index states_ = 0;
 };

@@ -216,6 +216,9 @@ void add_forces(const mjModel* /*model*/, mjData* data) {
     const auto m = static_cast<Eigen::Index>(motor - rig.motors.data());
     if (e.effect == "torque_bias") {
       Q[n + m] += e["bias"];
+    } else if (e.effect == "torque_saturation" || e.effect == "voltage_limit") {
+      const double asked = rig.motors[static_cast<std::size_t>(m)].torque_per_unit * running->commands[m];
+      Q[n + m] += delivered(e, asked, rate[n + m]) - asked;
     } else if (is_compliance(e)) {
       for (std::size_t i = 0; i < rig.motors.size(); ++i) {
         const Motor& one = rig.motors[i];
@@ -234,7 +237,8 @@ void add_forces(const mjModel* /*model*/, mjData* data) {
         r.head(n) = rig.place(e.at)->row;
         return r;
       }();
-      Q += row * force(e, {row.dot(full), row.dot(rate), at_motor ? running->loads[m] : 0.0}, 0.0);
+      constexpr double kAtRest[2] = {0.0, 0.0};  // bristles and masses on springs stay where they are
+      Q += row * force(e, {row.dot(full), row.dot(rate), at_motor ? running->loads[m] : 0.0}, kAtRest);
     }
   }
   for (const Ground& ground : rig.grounds) {

@@ -188,6 +188,12 @@ bool change_sensor(const Hidden& e, Sensor& sensor) {
     sensor.offset += e["offset"];
     return true;
   }
+  if (e.effect == "encoder_eccentricity") {
+    sensor.waves = e["waves"];
+    sensor.amplitude = std::hypot(e["sine"], e["cosine"]);
+    sensor.phase = std::atan2(e["sine"], e["cosine"]);
+    return true;
+  }
   if (e.effect == "encoder_scale") {
     sensor.scale *= e["scale"];
     return true;
