@@ -107,11 +107,41 @@ Eigen::VectorXd mean_inertia(const model::Model& model, const MotionSamples& sam
 Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const MotionSamples& samples) {
   Eigen::MatrixXd result(rows.rows(), static_cast<Eigen::Index>(samples.used.size()));
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    const Eigen::VectorXd low =
-        sensing::low_pass(rows.row(r).transpose(), samples.trial->period, samples.cutoff);
+    const Eigen::VectorXd low = sensing::low_pass(rows.row(r).transpose(), samples.period, samples.cutoff);
     result.row(r) = low(samples.used).transpose();
   }
   return result;
+}
+
+/// Every so many samples of the signals, without what would fold below the cutoff.
+void thin(MotionSamples& samples) {
+  constexpr double kPerPeriod = 8.0;
+  constexpr double kFolding = 3.0;
+  const double T = samples.trial->period;
+  const auto stride = static_cast<Eigen::Index>(1.0 / (kPerPeriod * samples.cutoff * T));
+  samples.period = T;
+  if (stride < 2) {
+    return;
+  }
+  const double cutoff = measured::bounded(kFolding * samples.cutoff, T);
+  for (Eigen::MatrixXd* rows : {&samples.motion.z, &samples.motion.v, &samples.motion.a, &samples.commands}) {
+    Eigen::MatrixXd some(rows->rows(), (rows->cols() + stride - 1) / stride);
+    for (Eigen::Index r = 0; r < rows->rows(); ++r) {
+      const Eigen::VectorXd low = sensing::low_pass(rows->row(r).transpose(), T, cutoff);
+      for (Eigen::Index k = 0; k < some.cols(); ++k) {
+        some(r, k) = low[k * stride];
+      }
+    }
+    *rows = std::move(some);
+  }
+  std::vector<Eigen::Index> used;
+  for (const Eigen::Index k : samples.used) {
+    if (k % stride == 0) {
+      used.push_back(k / stride);
+    }
+  }
+  samples.used = std::move(used);
+  samples.period = static_cast<double>(stride) * T;
 }
 
 }  // namespace
@@ -173,6 +203,7 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
   }
   samples.motion = measured::differentiated(std::move(z), trial.period);
   samples.commands = means(measured::arrived_commands(plant, trial));
+  thin(samples);
   samples.inertia = mean_inertia(model, samples);
   return samples;
 }
@@ -183,8 +214,8 @@ Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& sa
   const Eigen::Index n = plant.positions();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   Eigen::VectorXd rate = x;
-  Eigen::MatrixXd errors(n, trial.samples());
-  for (Eigen::Index k = 0; k < trial.samples(); ++k) {
+  Eigen::MatrixXd errors(n, samples.commands.cols());
+  for (Eigen::Index k = 0; k < errors.cols(); ++k) {
     x.head(n) = samples.motion.z.col(k);
     x.segment(n, n) = samples.motion.v.col(k);
     const Eigen::VectorXd command = samples.commands.col(k);

@@ -19,6 +19,7 @@ struct MotionSamples {
   Eigen::MatrixXd to_places;       ///< generalised forces of the positions -> forces at these places
   Eigen::VectorXd inertia;         ///< of each, mean of (W^-T M W^-1)_ii over the motion with the model given
   double cutoff = 0.0;             ///< Hz: torques are compared below it
+  double period = 0.0;             ///< s, of the samples here: every so many of the trial's (thinned)
   std::vector<Eigen::Index> used;  ///< samples away from the ends of stretches, where filters know too little
 };
 

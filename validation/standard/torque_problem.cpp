@@ -230,7 +230,7 @@ TorqueProblem::TorqueProblem(const model::Model& model, const Data& data, const 
       scales_(scales_of(model, all_)),
       least_(least_errors(model, scales_)),
       threads_(data.threads),
-      share_(std::min(1.0, 2.0 * all_.front().cutoff * all_.front().trial->period)) {}
+      share_(std::min(1.0, 2.0 * all_.front().cutoff * all_.front().period)) {}
 
 Eigen::Index TorqueProblem::samples() const {
   Eigen::Index sum = 0;
@@ -275,7 +275,7 @@ TorqueBlocks TorqueProblem::blocks(const model::Model& model, double length) con
   std::vector<Eigen::Index> first;
   std::vector<Eigen::Index> of_trial;
   for (const MotionSamples& samples : all_) {
-    const double seconds = static_cast<double>(samples.used.size()) * samples.trial->period;
+    const double seconds = static_cast<double>(samples.used.size()) * samples.period;
     first.push_back(count);
     of_trial.push_back(std::max<Eigen::Index>(1, std::lround(seconds / length)));
     count += of_trial.back();
