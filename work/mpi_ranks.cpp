@@ -1,6 +1,7 @@
 // The ranks of an MPI job. The first one hands out tasks one at a time, and does some itself on a second
 // thread.
 #include <mpi.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -35,16 +36,24 @@ struct RequestHead {
   std::uint64_t list = 0;  // of the names of all tasks
   std::int64_t task = kNone;
   Kind kind = Kind::first_request;
-  double seconds = 0.0;
+  double seconds = 0.0, processor = 0.0;
 };
 
 struct Finished {
   std::int64_t task = kNone;
   Kind kind = Kind::first_request;
-  double seconds = 0.0;
-  std::string bytes;  // the result, or the message of a failure
+  double seconds = 0.0, processor = 0.0;  // of the task; of its thread
+  std::string bytes{};                    // the result, or the message of a failure
   std::exception_ptr failure{};
 };
+
+/// Of this thread.
+double processor_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  constexpr double kNano = 1e-9;
+  return static_cast<double>(time.tv_sec) + kNano * static_cast<double>(time.tv_nsec);
+}
 
 /// Set while this thread is within a task: whatever that asks for is done where it is.
 bool& is_within_task() {
@@ -84,7 +93,10 @@ std::uint64_t list_of(const std::vector<Task>& tasks) {
 Finished done(const std::vector<Task>& tasks, std::int64_t index, const Watch& watch) {
   const Task& task = tasks[static_cast<std::size_t>(index)];
   const auto begin = Clock::now();
-  Finished finished{index, Kind::result, 0.0, {}};
+  const double before = processor_seconds();
+  Finished finished;
+  finished.task = index;
+  finished.kind = Kind::result;
   is_within_task() = true;
   try {
     finished.bytes = task.run();
@@ -95,6 +107,7 @@ Finished done(const std::vector<Task>& tasks, std::int64_t index, const Watch& w
   }
   is_within_task() = false;
   finished.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  finished.processor = processor_seconds() - before;
   return finished;
 }
 
@@ -209,19 +222,20 @@ class Times {
   explicit Times(const std::string& file) : begin_(Clock::now()) {
     if (!file.empty()) {
       out_.open(file);
-      out_ << "run,task,rank,given,back,seconds\n";
+      out_ << "run,task,rank,given,back,seconds,processor\n";
     }
   }
   double now() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
   void next_run() { ++run_; }
-  void add(const std::string& task, int rank, double given, double seconds) {
+  void add(const std::string& task, int rank, double given, const Finished& finished) {
     if (out_.is_open()) {
-      out_ << run_ << ',' << task << ',' << rank << ',' << given << ',' << now() << ',' << seconds << '\n';
+      out_ << run_ << ',' << task << ',' << rank << ',' << given << ',' << now() << ',' << finished.seconds
+           << ',' << finished.processor << std::endl;
     }
   }
   void end() {
     if (out_.is_open()) {
-      out_ << ",all,," << 0.0 << ',' << now() << ',' << now() << std::endl;
+      out_ << ",all,," << 0.0 << ',' << now() << ',' << now() << ',' << std::endl;
     }
   }
 
@@ -320,7 +334,13 @@ class Lead {
           "rank " + std::to_string(status.MPI_SOURCE) +
           " has come to other tasks than the first rank; the ranks must be alike (processors, files)");
     }
-    keep({head.task, head.kind, head.seconds, message.substr(sizeof head)}, status.MPI_SOURCE);
+    Finished finished;
+    finished.task = head.task;
+    finished.kind = head.kind;
+    finished.seconds = head.seconds;
+    finished.processor = head.processor;
+    finished.bytes = message.substr(sizeof head);
+    keep(std::move(finished), status.MPI_SOURCE);
     return true;
   }
 
@@ -332,7 +352,7 @@ class Lead {
     --out_;
     if (finished.kind == Kind::result) {
       const auto task = static_cast<std::size_t>(finished.task);
-      times_.add(tasks_[task].name, rank, given_[task], finished.seconds);
+      times_.add(tasks_[task].name, rank, given_[task], finished);
       results_.bytes[task] = std::move(finished.bytes);
       if (watch_.done) {
         watch_.done(task, results_.bytes[task], finished.seconds);
@@ -384,6 +404,7 @@ Results follow(const std::vector<Task>& tasks, const Watch& watch) {
     head.task = finished.task;
     head.kind = finished.kind;
     head.seconds = finished.seconds;
+    head.processor = finished.processor;
     std::string message(sizeof head, '\0');
     std::memcpy(message.data(), &head, sizeof head);
     message += finished.bytes;

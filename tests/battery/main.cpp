@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -14,9 +16,11 @@
 #include <stdexcept>
 
 #include "tests/battery/report.h"
+#include "tests/battery/result_json.h"
 #include "tests/battery/results_file.h"
 #include "tests/battery/sweep.h"
 #include "tests/battery/worlds/play.h"
+#include "work/workers.h"
 
 namespace plumbline::battery {
 namespace {
@@ -90,14 +94,43 @@ void show(const Result& result, const Inputs& inputs) {
   std::fflush(stdout);
 }
 
+/// Each case by one of the ranks. What they tell of candidates (--explain) stays where it was found.
+std::vector<Result> results_of_ranks(const std::vector<Case>& cases, const Inputs& inputs,
+                                     work::Workers& workers, ResultsFile* file) {
+  std::vector<work::Task> tasks;
+  for (const Case& one : cases) {
+    tasks.push_back({one.name, [&] { return to_json(run_case(one, inputs.run)).dump(); }});
+  }
+  work::Watch watch;
+  watch.known = [&](std::size_t c) {
+    const Result* known = file != nullptr ? file->find(cases[c].name) : nullptr;
+    return known != nullptr ? std::optional<std::string>(to_json(*known).dump()) : std::nullopt;
+  };
+  watch.done = [&](std::size_t /*c*/, const std::string& result, double /*seconds*/) {
+    const Result one = result_from(nlohmann::json::parse(result));
+    if (file != nullptr) {
+      file->add(one);
+    }
+    show(one, inputs);
+  };
+  std::vector<Result> results;
+  for (const std::string& result : workers.run(tasks, watch).bytes) {
+    results.push_back(result_from(nlohmann::json::parse(result)));
+  }
+  return results;
+}
+
 /// Those in the results' file are not run again; with --score, no others are looked at.
-std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inputs) {
+std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inputs, work::Workers& workers) {
   std::optional<ResultsFile> file;
-  if (!inputs.results.empty()) {
+  if (!inputs.results.empty() && workers.is_first()) {
     if (inputs.score && !std::filesystem::exists(inputs.results)) {
       throw std::runtime_error(inputs.results + ": no such file");
     }
     file.emplace(inputs.results, inputs.run);
+  }
+  if (workers.ranks() > 1 && !inputs.score) {
+    return results_of_ranks(cases, inputs, workers, file ? &*file : nullptr);
   }
   std::vector<Result> results;
   for (const Case& one : cases) {
@@ -123,7 +156,7 @@ std::set<std::string> reasons(const Inputs& inputs) {
   return all;
 }
 
-int run(const Inputs& inputs) {
+int run(const Inputs& inputs, work::Workers& workers) {
   const std::vector<Case> cases =
       subset(chosen(inputs.rigs, inputs.only, inputs.run.world), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
@@ -132,6 +165,9 @@ int run(const Inputs& inputs) {
     }
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
+  }
+  if (!workers.is_first() && (inputs.list || inputs.sweep || inputs.score)) {
+    return 0;
   }
   if (inputs.list) {
     for (const Case& one : cases) {
@@ -146,7 +182,10 @@ int run(const Inputs& inputs) {
   if (!inputs.run.bare_only && inputs.run.write.empty()) {
     fmt::print("{}\n", table_head());
   }
-  const std::vector<Result> results = results_of(cases, inputs);
+  const std::vector<Result> results = results_of(cases, inputs, workers);
+  if (!workers.is_first()) {
+    return 0;
+  }
   const Targets targets;
   const Summary summary = summarise(results, targets);
   if (!inputs.json.empty()) {
@@ -218,14 +257,24 @@ int main(int argc, char** argv) {
                  "diagnose nothing: write the trials of each case into a folder of its own below DIR")
       ->type_name("DIR");
   app.add_flag("--list", inputs.list, "only the names of the cases");
+  std::unique_ptr<plumbline::work::Workers> workers;
+  int status = 2;
   try {
+    const char* times = std::getenv("PLUMBLINE_WORK_TIMES");
+    workers = plumbline::work::start(times == nullptr ? "" : times);
+    if (!workers->is_first() && std::freopen("/dev/null", "w", stdout) == nullptr) {
+      return 2;
+    }
     app.parse(argc, argv);
-    return plumbline::battery::run(inputs);
+    status = plumbline::battery::run(inputs, *workers);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? 0 : 2;
+    status = app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "battery: {}\n", error.what());
-    return 2;
+    if (workers) {
+      workers->fail(error.what());
+    }
   }
+  std::fflush(stdout);
+  return workers ? workers->finish(status) : status;
 }

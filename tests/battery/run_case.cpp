@@ -19,6 +19,7 @@
 #include "validation/compare/compare.h"
 #include "validation/trial/write_trial.h"
 #include "validation/twin/twin.h"
+#include "work/workers.h"
 
 namespace plumbline::battery {
 namespace {
@@ -216,6 +217,7 @@ void run(const RunOptions& options, Result& result) {
     return;
   }
   validation::Data data(std::move(trials), {});
+  data.threads = work::cores();
   data.kept = options.kept;
   result.bare = validation::compare(bare, data).scores.held_out;
   if (!options.bare_only) {

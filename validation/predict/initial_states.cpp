@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "validation/predict/spread.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -29,6 +31,26 @@ std::vector<std::vector<int>> runs_of(const Data& data, bool segments_alone) {
     runs.back().push_back(w);
   }
   return runs;
+}
+
+/// Work on windows that changes their initial states and normal equations.
+Spread spread_over(const std::string& name, const model::Model& model, const std::vector<int>& windows,
+                   const std::function<void(int)>& work, Point& point, std::vector<Reduced>& reduced) {
+  const auto result = [&](int i) {
+    const auto at = static_cast<std::size_t>(windows[static_cast<std::size_t>(i)]);
+    Record record;
+    record.add(point.x0[at]);
+    add(reduced[at], record);
+    return record;
+  };
+  const auto take = [&](int i, const Record& record) {
+    const auto at = static_cast<std::size_t>(windows[static_cast<std::size_t>(i)]);
+    RecordReader reader(record);
+    point.x0[at] = reader.vector();
+    reduced[at] = reduced_from(reader);
+  };
+  constexpr double kSteps = 20.0;  // trajectories of a search, about
+  return {name, cost_of(model, kSteps), work, result, take};
 }
 
 }  // namespace
@@ -66,10 +88,12 @@ StateSearch InitialStates::search(int window, const Point& point) {
 std::vector<Reduced> InitialStates::reduce_those_that_run(const std::vector<int>& windows,
                                                           const Point& point) {
   std::vector<Reduced> all(windows.size());
-  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
+  const auto work = [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     all[at] = search(windows[at], point).from(point.x0[static_cast<std::size_t>(windows[at])]).reduced;
-  });
+  };
+  for_each_item(pool_.data(), static_cast<int>(windows.size()),
+                spread_of("reducing a window", pool_.model(), parameters_.size(), work, all));
   return all;
 }
 
@@ -96,14 +120,16 @@ std::vector<Reduced> InitialStates::reduce_or_begin_anew(Point& point) {
 
 void InitialStates::settle(const std::vector<int>& windows, const Settling& settling, Point& point,
                            std::vector<Reduced>& reduced) {
-  parallel_for(static_cast<int>(windows.size()), pool_.data().threads, [&](int i) {
+  const auto work = [&](int i) {
     const int w = windows[static_cast<std::size_t>(i)];
     const auto at = static_cast<std::size_t>(w);
     Settled one{std::move(point.x0[at]), std::move(reduced[at])};
     search(w, point).settle(settling, one);
     point.x0[at] = std::move(one.x0);
     reduced[at] = std::move(one.reduced);
-  });
+  };
+  for_each_item(pool_.data(), static_cast<int>(windows.size()),
+                spread_over("settling a window", pool_.model(), windows, work, point, reduced));
 }
 
 std::optional<Eigen::VectorXd> InitialStates::end_of_the_one_before(int window, int before,
@@ -317,13 +343,16 @@ void InitialStates::shorten(const Point& from, const std::vector<Reduced>& befor
 }
 
 void InitialStates::take_last_step(Point& point, std::vector<Reduced>& reduced) {
-  parallel_for(static_cast<int>(reduced.size()), pool_.data().threads, [&](int w) {
+  const std::vector<int> all = pool_.data().all_windows();
+  const auto work = [&](int w) {
     const auto i = static_cast<std::size_t>(w);
     Settled one{std::move(point.x0[i]), std::move(reduced[i])};
     search(w, point).take_last_step(one);
     point.x0[i] = std::move(one.x0);
     reduced[i] = std::move(one.reduced);
-  });
+  };
+  for_each_item(pool_.data(), static_cast<int>(reduced.size()),
+                spread_over("a window's last step", pool_.model(), all, work, point, reduced));
 }
 
 std::vector<Reduced> settle_all(PredictorPool& pool, const std::vector<FreeParameter>& parameters,

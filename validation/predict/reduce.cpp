@@ -3,6 +3,7 @@
 
 #include "validation/predict/eliminate.h"
 #include "validation/predict/estimate.h"
+#include "validation/predict/spread.h"
 
 namespace plumbline::validation {
 namespace {
@@ -56,7 +57,7 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
   std::vector<Reduced> all(windows.size());
   const std::vector<FreeParameter> moving = units.size() > 0 ? parameters : std::vector<FreeParameter>();
   const Eigen::VectorXd slopes = search_slopes(moving, units, theta);
-  parallel_for(static_cast<int>(windows.size()), data.threads, [&](int i) {
+  const auto work = [&](int i) {
     const int w = windows[static_cast<std::size_t>(i)];
     pool.with(w, parameters, theta, [&](Predictor& predictor) {
       const Window& window = data.windows[static_cast<std::size_t>(w)];
@@ -64,7 +65,9 @@ std::vector<Reduced> reduce(PredictorPool& pool, const std::vector<int>& windows
       all[static_cast<std::size_t>(i)] = reduce(
           predictor, window, given.size() > 0 ? given : predictor.initial_state(window), moving, slopes);
     });
-  });
+  };
+  for_each_item(data, static_cast<int>(windows.size()),
+                spread_of("reducing a window", pool.model(), moving.size(), work, all));
   return all;
 }
 
