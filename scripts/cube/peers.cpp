@@ -1,15 +1,16 @@
 // The tossed cube in MuJoCo and in Bullet: contact parameters searched on the train tosses, the held-out ones
-// predicted. peers.sh builds and runs it. Both begin where the samples before the first touchdown say: straight lines
-// under gravity and a constant angular velocity, by least squares.
+// predicted. peers.sh builds and runs it. Both begin where the samples before the first touchdown say:
+// straight lines under gravity and a constant angular velocity, by least squares.
 //
 //   peers mujoco|bullet DATA EVALUATIONS OUT
 //
-// writes OUT/toss_NNN.csv of the held-out tosses (t, x, y, z, quaternion w x y z) and the parameters it ended at.
+// writes OUT/toss_NNN.csv of the held-out tosses (t, x, y, z, quaternion w x y z) and the parameters it ended
+// at.
+#include <btBulletDynamicsCommon.h>
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <btBulletDynamicsCommon.h>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -29,9 +30,9 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kSide = 0.1048;     // m
-constexpr double kMass = 0.37;       // kg
-constexpr double kGravity = 9.80665; // m/s^2
+constexpr double kSide = 0.1048;      // m
+constexpr double kMass = 0.37;        // kg
+constexpr double kGravity = 9.80665;  // m/s^2
 constexpr int kTrain = 60;
 
 struct Pose {
@@ -74,13 +75,15 @@ Start start_of(const Toss& toss) {
     const double t = toss.t[k] - toss.t.front();
     A.row(i) << 1.0, t;
     P.row(i) = (toss.poses[k].p + 0.5 * kGravity * t * t * Vector3d::UnitZ()).transpose();
-    R.row(i) = rotation_vector(toss.poses[k].q * q0.inverse()).transpose();  // a cube's angular velocity stays
+    R.row(i) =
+        rotation_vector(toss.poses[k].q * q0.inverse()).transpose();  // a cube's angular velocity stays
   }
   const auto solve = A.colPivHouseholderQr();
   const Eigen::MatrixXd p = solve.solve(P), r = solve.solve(R);
   const Vector3d turn = r.row(0).transpose();
   const double angle = turn.norm();
-  const Quaterniond offset(Eigen::AngleAxisd(angle, angle > 0.0 ? Vector3d(turn / angle) : Vector3d::UnitX()));
+  const Quaterniond offset(
+      Eigen::AngleAxisd(angle, angle > 0.0 ? Vector3d(turn / angle) : Vector3d::UnitX()));
   return {{p.row(0).transpose(), offset * q0}, p.row(1).transpose(), r.row(1).transpose()};
 }
 
@@ -116,14 +119,15 @@ std::vector<Toss> read(const std::string& folder) {
 /// What is searched, in the logarithm, but for the last: the table's height, m.
 using Simulator = std::function<std::vector<Pose>(const Toss&, const VectorXd&)>;
 
-// Stiffness and damping of the contact constraint (solref in its direct form), friction; height. MuJoCo's cone is
-// elliptic, as its manual asks for where friction matters.
+// Stiffness and damping of the contact constraint (solref in its direct form), friction; height. MuJoCo's
+// cone is elliptic, as its manual asks for where friction matters.
 class Mujoco {
  public:
   Mujoco() {
     std::ostringstream xml;
     xml << "<mujoco><option timestep='0.0002' gravity='0 0 -" << kGravity
-        << "' cone='elliptic' solver='Newton' iterations='50'/><worldbody><geom name='table' type='plane' size='5 5 1'/>"
+        << "' cone='elliptic' solver='Newton' iterations='50'/><worldbody><geom name='table' type='plane' "
+           "size='5 5 1'/>"
         << "<body><freejoint/><geom name='cube' type='box' size='" << 0.5 * kSide << " " << 0.5 * kSide << " "
         << 0.5 * kSide << "' mass='" << kMass << "'/></body></worldbody></mujoco>";
     mjVFS files;
@@ -146,7 +150,9 @@ class Mujoco {
   Mujoco(const Mujoco&) = delete;
   Mujoco& operator=(const Mujoco&) = delete;
 
-  static VectorXd first() { return (VectorXd(4) << std::log(3000.0), std::log(50.0), std::log(0.2), 0.0).finished(); }
+  static VectorXd first() {
+    return (VectorXd(4) << std::log(3000.0), std::log(50.0), std::log(0.2), 0.0).finished();
+  }
 
   std::vector<Pose> run(const Toss& toss, const VectorXd& p) {
     for (int g = 0; g < 2; ++g) {
@@ -184,7 +190,9 @@ class Mujoco {
 // Contact stiffness and damping, friction; height.
 class Bullet {
  public:
-  static VectorXd first() { return (VectorXd(4) << std::log(3000.0), std::log(20.0), std::log(0.2), 0.0).finished(); }
+  static VectorXd first() {
+    return (VectorXd(4) << std::log(3000.0), std::log(20.0), std::log(0.2), 0.0).finished();
+  }
 
   static std::vector<Pose> run(const Toss& toss, const VectorXd& p) {
     constexpr double kScale = 10.0;  // Bullet's margins are made for bodies of a metre: lengths in decimetres
@@ -207,10 +215,13 @@ class Bullet {
       body->setFriction(btScalar(std::sqrt(std::exp(p[2]))));  // Bullet multiplies the two
     }
     const Start& start = toss.start;
-    const auto vector = [](const Vector3d& v) { return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z())); };
+    const auto vector = [](const Vector3d& v) {
+      return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
+    };
     const Quaterniond& q = start.pose.q;
-    cube.setWorldTransform(btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())),
-                                       vector(kScale * start.pose.p)));
+    cube.setWorldTransform(
+        btTransform(btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())),
+                    vector(kScale * start.pose.p)));
     cube.setLinearVelocity(vector(kScale * start.v));
     cube.setAngularVelocity(vector(start.w));
     cube.setActivationState(DISABLE_DEACTIVATION);
@@ -233,7 +244,8 @@ class Bullet {
   }
 };
 
-/// Mean over the samples of (|p error| / side + angle / rad) of a toss: both as in the table, equally weighted.
+/// Mean over the samples of (|p error| / side + angle / rad) of a toss: both as in the table, equally
+/// weighted.
 double error_of(const Toss& toss, const std::vector<Pose>& poses) {
   double sum = 0.0;
   for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -280,8 +292,8 @@ void write(const std::string& file, const Toss& toss, const std::vector<Pose>& p
   out << "t,x,y,z,qw,qx,qy,qz\n";
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Pose& at = poses[k];
-    out << toss.t[k] << ',' << at.p.x() << ',' << at.p.y() << ',' << at.p.z() << ',' << at.q.w() << ',' << at.q.x()
-        << ',' << at.q.y() << ',' << at.q.z() << '\n';
+    out << toss.t[k] << ',' << at.p.x() << ',' << at.p.y() << ',' << at.p.z() << ',' << at.q.w() << ','
+        << at.q.x() << ',' << at.q.y() << ',' << at.q.z() << '\n';
   }
 }
 

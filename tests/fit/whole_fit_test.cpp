@@ -80,7 +80,7 @@ TEST_F(Tosses, BeginAsTheFlightSays) {
   ASSERT_LT(flight, 12);
   const Eigen::VectorXd x0 = state_at_start(predictor, trial, whole);
   const Eigen::VectorXd truth = start(3, 0.1);
-  EXPECT_LT((x0.head(12) - truth).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_LT((x0.head(12) - truth).cwiseAbs().maxCoeff(), 2e-3) << (x0.head(12) - truth).transpose();
   EXPECT_GT((predictor.initial_state(whole).head(12) - truth).cwiseAbs().maxCoeff(), 2e-2);
 }
 
