@@ -44,9 +44,22 @@ def true_names(truth, case, effects=None):
     return {name_of(effect) for effect in (truth["effects"] if effects is None else effects)} & allowed
 
 
+def two_levels(names):
+    """Dry friction of two levels is, letter by letter, Coulomb friction of their mean and a constant force of half their difference."""
+    out = set(names)
+    for kind, place in names:
+        both = {("coulomb_friction", place), ("constant_force", place)}
+        if kind == "asymmetric_friction" and not both & names:
+            out = out - {(kind, place)} | both
+        elif both <= names and ("asymmetric_friction", place) not in names:
+            out = out - both | {("asymmetric_friction", place)}
+    return out
+
+
 def nearest_truth(answer, truth, case):
-    """Of the truth and what says the same in other names ("also_right"), the one that the answer meets best."""
+    """Of the truth and what says the same in other names ("also_right", two_levels), the one that the answer meets best."""
     candidates = [true_names(truth, case)] + [true_names(truth, case, effects) for effects in truth.get("also_right", [])]
+    candidates += [two_levels(names) for names in candidates]
 
     def merit(names):
         got = names_score(answer, names, truth["group"])

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the page of results from what entrants answered. What a rival does better stands first.
+"""Writes the page of results from what entrants answered, in Markdown and in HTML. What a rival does better stands first.
 
-Usage: table.py DIR --out FILE [--own NAME] [--reasons FILE] [--version TEXT] [--date TEXT]
+Usage: table.py DIR --out FILE [--html FILE] [--own NAME] [--reasons FILE] [--version TEXT] [--date TEXT]
 
-DIR has cases, truths and answers/NAME for every entrant. Only cases that every entrant was run on count. --reasons: a JSON file that says
+DIR has cases, truths and answers/NAME for every entrant. Only cases that every entrant was run on count; real machines stand for themselves. --html: the same with
+pictures, in one file that needs no other. --reasons: a JSON file that says
 why a rival is better, by "measure/group".
 """
 
@@ -13,6 +14,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import pictures  # noqa: E402
 import score  # noqa: E402
 
 # measure: (title, form, whether more is better)
@@ -26,11 +28,15 @@ JUDGED = ("first", "group", "invented", "log_score", "prediction", "seconds")
 SPLITS = (("By kind", "kind"), ("By machine", "machine"), ("By strength of a single effect", "strength"))
 
 
-def run_on(answers, cases):
-    """Cases that every entrant was run on."""
-    done = [{c for c in os.listdir(os.path.join(answers, e)) if os.path.exists(os.path.join(answers, e, c, "run.json"))}
-            for e in sorted(os.listdir(answers))]
+def run_on(answers, entrants, cases):
+    """Cases that every entrant was run on, to its own end or the limit of processor time."""
+    done = [{c for c in os.listdir(os.path.join(answers, e)) if ran(os.path.join(answers, e, c, "run.json"))} for e in entrants]
     return sorted(set(os.listdir(cases)).intersection(*done))
+
+
+def ran(path):
+    """A run that the wall clock ended, on a machine that was busy with other work, says nothing of the entrant."""
+    return os.path.exists(path) and score.load(path)["ending"] != "wall clock limit"
 
 
 def table(header, rows):
@@ -91,7 +97,7 @@ def case_rows(root, cases, shown):
         if truth["group"] == "outside":
             hidden = f"outside: {hidden}"
         machine = score.load(os.path.join(root, "cases", case, "case.json"))["machine"]
-        rows.append([case.removeprefix("case_"), machine, f"{hidden} {truth['strength']}".strip(), f"{truth['shows']:.0f}"]
+        rows.append([case.removeprefix("case_"), machine, f"{hidden} {truth['strength']}".strip(), "-" if truth["shows"] is None else f"{truth['shows']:.0f}"]
                     + [said(os.path.join(root, "answers", e, case)) for e in shown])
     return rows
 
@@ -116,28 +122,61 @@ def reliability(results, names):
     return table(["entrant", "confidence", "names", "stated, mean", "true, share"], rows)
 
 
+def standing(simulated, names):
+    rows = [[e] + [cell(m, score.summary(simulated[e])) for m in MEASURES] for e in names]
+    return table(["entrant"] + [m[0] for m in MEASURES.values()], rows)
+
+
 def page(root, results, cases, options, reasons):
-    names = order(results)
-    total = len(os.listdir(os.path.join(root, "cases")))
+    simulated = {e: [r for r in rows if r["kind"] != "real"] for e, rows in results.items()}
+    real = {e: [r for r in rows if r["kind"] == "real"] for e, rows in results.items()}
+    names, folder = order(simulated), os.path.join(root, "cases")
+    total = len([c for c in os.listdir(folder) if not c.startswith("real_")])
+    count = len(simulated[names[0]])
     lines = ["# Naming a missing effect: the benchmark's table", "",
              f"{options.date}, version {options.version}. Definitions: [benchmark/README.md](../../benchmark/README.md). Written by `benchmark/table.py`.",
-             f"All entrants were run on the same {len(cases)} of {total} cases of seed {options.seed} (`make_cases.py --seed {options.seed}`), within 120 s of "
-             "processor time a case, on a machine with two cores that did other work.", *options.remarks, "",
-             "## Where a rival is better", ""]
-    worse = better(results, options.own, reasons)
+             f"All entrants were run on the same {count} of {total} simulated cases of seed {options.seed} (`make_cases.py --seed {options.seed}`) and on "
+             f"{len(cases) - count} of real machines, within 120 s of processor time a case, on a machine with two cores that did other work.",
+             *options.remarks, "", "## Where a rival is better", ""]
+    worse = better(simulated, options.own, reasons)
     lines += table(["measure", "cases", "rival", options.own, "why"], worse) if worse else ["Nowhere."]
-    rows = [[e] + [cell(m, score.summary(results[e])) for m in MEASURES] for e in names]
-    lines += ["", "## All cases", ""] + table(["entrant"] + [m[0] for m in MEASURES.values()], rows)
-    lines += split_tables(results, names) + ["", "## Confidences", ""] + reliability(results, names)
+    lines += ["", "## All simulated cases", ""] + standing(simulated, names)
+    if real[names[0]]:
+        lines += ["", "## Real machines", ""] + standing(real, order(real))
+    lines += split_tables(simulated, names) + ["", "## Confidences", ""] + reliability(simulated, names)
     shown = [e for e in names if e != "says_nothing"]
     lines += ["", "## Case by case", "", "*shows*: floors at joint positions over a quarter of a second. Names of one slot are parted by a stroke.", ""]
     return lines + table(["case", "machine", "hidden", "shows"] + shown, case_rows(root, cases, shown))
+
+
+def figures(results):
+    """{heading: [(caption, picture)]} of the HTML page."""
+    results = {e: [r for r in rows if r["kind"] != "real"] for e, rows in results.items()}
+    names = order(results)
+    colours = dict(zip(names, pictures.COLOURS))
+
+    def shares(key):
+        groups = sorted({row[key] for row in results[names[0]] if row[key]})
+        return [(f"{g} ({len(split(results[names[0]], key)[g])})",
+                 {e: score.summary(split(results[e], key)[g])["first"] for e in names}) for g in groups if g in split(results[names[0]], key)]
+    strengths = {"weak": 0.0, "medium": 0.5, "strong": 1.0}
+    points = {e: [(x, score.summary(part[w])["first"], len(part[w])) for w, x in strengths.items() if w in part]
+              for e, part in ((e, split(results[e], "strength")) for e in names)}
+    return {
+        "All simulated cases": [("Hit rate by kind of case (cases)", pictures.bars(shares("kind"), names, colours, "by kind"))],
+        "By machine": [("Hit rate by machine (cases)", pictures.bars(shares("machine"), names, colours, "by machine"))],
+        "By strength of a single effect": [("Hit rate of single effects against their strength; dots grow with the number of cases",
+                                            pictures.lines(points, names, colours, "by strength", "strength", [(x, w) for w, x in strengths.items()]))],
+        "Confidences": [("Share of names that are true against the confidence stated; on the dashed line an entrant says what it knows",
+                         pictures.reliability({e: score.summary(results[e])["reliability"] for e in names}, names, colours))]}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("root")
     parser.add_argument("--out", required=True)
+    parser.add_argument("--html")
+    parser.add_argument("--entrants", nargs="+", help="only these")
     parser.add_argument("--own", default="plumbline")
     parser.add_argument("--reasons", help="JSON: {\"measure/group\": why a rival is better, \"remarks\": [lines]}")
     parser.add_argument("--version", default="unknown")
@@ -146,11 +185,16 @@ def main():
     options = parser.parse_args()
     answers, reasons = os.path.join(options.root, "answers"), score.load(options.reasons) if options.reasons else {}
     options.remarks = reasons.get("remarks", [])
-    cases = run_on(answers, os.path.join(options.root, "cases"))
+    entrants = options.entrants or sorted(os.listdir(answers))
+    cases = run_on(answers, entrants, os.path.join(options.root, "cases"))
     results = {e: score.score(os.path.join(answers, e), os.path.join(options.root, "cases"), os.path.join(options.root, "truths"), cases)
-               for e in sorted(os.listdir(answers))}
+               for e in entrants}
+    lines = page(options.root, results, cases, options, reasons)
     with open(options.out, "w", encoding="utf-8") as file:
-        file.write("\n".join(page(options.root, results, cases, options, reasons)) + "\n")
+        file.write("\n".join(lines) + "\n")
+    if options.html:
+        with open(options.html, "w", encoding="utf-8") as file:
+            file.write(pictures.page(lines, figures(results)))
 
 
 if __name__ == "__main__":

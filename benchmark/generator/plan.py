@@ -81,7 +81,7 @@ OUTSIDE = {
                ("warming", "leg", {"damping": 30.0, "time": 0.8}),
                ("absorber", "rail", {"inertia": 0.6, "stiffness": 900.0, "damping": 1.0}),
                ("fading", "leg", {"loss": 0.5, "time": 1.2})],
-    "cube": [("patch_friction", "along", {"damping": 6.0, "center": 0.03, "width": 0.03}),
+    "cube": [("patch_friction", "along", {"damping": 6.0, "center": 0.0, "width": 0.12}),
              ("latch", "up", {"pull": 2.0, "center": 0.12, "width": 0.02}),
              ("absorber", "turn", {"inertia": 2.0e-4, "stiffness": 0.15, "damping": 2.0e-4}),
              ("warming", "along", {"damping": 3.0, "time": 0.4})],

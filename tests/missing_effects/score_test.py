@@ -69,6 +69,13 @@ class Names(unittest.TestCase):
             self.assertEqual(score.nearest_truth(given, hidden, CASE), met)
         self.assertEqual(names(answer("found", [name(SPRING, 0.9)]), hidden)["first"], False)
 
+    def test_two_levels_of_friction_are_a_level_and_a_force(self):
+        both = {("coulomb_friction", "hip"), ("constant_force", "hip")}
+        one = {("asymmetric_friction", "hip")}
+        self.assertEqual(score.two_levels(both | {LAG}), one | {LAG})
+        self.assertEqual(score.two_levels(one | {LAG}), both | {LAG})
+        self.assertEqual(score.two_levels({FRICTION, ("constant_force", "knee")}), {FRICTION, ("constant_force", "knee")})
+
     def test_effects_outside_the_list_have_no_name(self):
         self.assertEqual(score.true_names(truth("outside", ("latch", "hip")), CASE), set())
 

@@ -1,0 +1,72 @@
+"""Cases of real machines, from recordings that the test makes up: files of MATLAB, columns, what is withheld, what is missing."""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+import numpy as np
+
+import real_cases
+
+BENCHMARK = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "benchmark")
+
+
+def element(kind, body):
+    return struct.pack("<II", kind, len(body)) + body + b"\0" * (-len(body) % 8)
+
+
+def mat(path, arrays):
+    """MATLAB 5 by its published format: a header of 128 bytes, each array a compressed matrix of doubles."""
+    with open(path, "wb") as file:
+        file.write(b"MATLAB 5.0".ljust(124) + struct.pack("<H2s", 0x0100, b"IM"))
+        for name, values in arrays.items():
+            matrix = (element(6, struct.pack("<II", 6, 0)) + element(5, struct.pack("<ii", len(values), 1))
+                      + element(1, name.encode()) + element(9, np.asarray(values, "<f8").tobytes()))
+            packed = zlib.compress(element(14, matrix))
+            file.write(struct.pack("<II", 15, len(packed)) + packed)
+
+
+class Real(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = folder.name
+        os.makedirs(os.path.join(self.root, "emps"))
+        t = np.arange(20001) * 1e-3
+        for name in ("DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"):
+            mat(os.path.join(self.root, "emps", name), {"t": t, "qm": 0.1 * np.sin(t), "vir": np.cos(3.0 * t)})
+
+    def make(self):
+        return subprocess.run([sys.executable, os.path.join(BENCHMARK, "real_cases.py"), "--data", self.root, "--out", self.root],
+                              capture_output=True, text=True)
+
+    def test_numbers_of_mat(self):
+        table = real_cases.numbers_of_mat(os.path.join(self.root, "emps", "DATA_EMPS.mat"))
+        self.assertEqual(sorted(table), ["qm", "t", "vir"])
+        self.assertAlmostEqual(table["qm"][1000], 0.1 * np.sin(1.0))
+
+    def test_case(self):
+        done = self.make()
+        self.assertEqual(done.stdout.split(), ["real_emps"])
+        self.assertIn("real_servo left out", done.stderr)
+        with open(os.path.join(self.root, "cases/real_emps/case.json"), encoding="utf-8") as file:
+            case = json.load(file)
+        with open(os.path.join(self.root, "cases/real_emps/train_1.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.readline().strip(), "t [s],u_guide [N m],q_guide [m]")
+            first = [float(x) for x in file.readline().split(",")]
+        # Two seconds in; volts are newtons by the drive's gain.
+        self.assertAlmostEqual(first[1], 35.15065 * np.cos(6.0), places=4)
+        self.assertAlmostEqual(first[2], 0.1 * np.sin(2.0), places=6)
+        with open(os.path.join(self.root, "cases/real_emps/test_1.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.readline().strip(), "t [s],u_guide [N m]")
+        self.assertIn({"kind": "asymmetric_friction", "place": "guide"}, case["allowed"])
+        self.assertNotIn("truth", json.dumps(case))
+
+
+if __name__ == "__main__":
+    unittest.main()
