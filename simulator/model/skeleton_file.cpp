@@ -225,7 +225,8 @@ Eigen::Vector3d axis_of(const sdf::Joint& joint, unsigned int which, const Skele
     refuse_errors(axis->ResolveXyz(direction), xml);
   }
   if (!(direction.Length() > 0.0)) {
-    xml.refuse({joint.Name(), xml.line_of_joint(joint.Name())}, which == 0 ? "no axis" : "no second axis",
+    const std::string name = xml.joint_name(joint.Name());
+    xml.refuse({name, xml.line_of_joint(name)}, which == 0 ? "no axis" : "no second axis",
                "an axis of a joint that moves");
   }
   return to_eigen(direction).normalized();
@@ -234,11 +235,12 @@ Eigen::Vector3d axis_of(const sdf::Joint& joint, unsigned int which, const Skele
 /// What kind of several degrees of freedom it has, if it has.
 void read_kind(const sdf::Joint& joint, const SkeletonXml& xml, LooseJoint& loose) {
   using Kind = LooseJoint::Kind;
-  if (xml.urdf_joint(joint.Name()) == UrdfJoint::floating) {
+  const std::string name = xml.joint_name(joint.Name());
+  if (xml.urdf_joint(name) == UrdfJoint::floating) {
     loose.kind = Kind::free;
-  } else if (xml.urdf_joint(joint.Name()) == UrdfJoint::planar) {
+  } else if (xml.urdf_joint(name) == UrdfJoint::planar) {
     loose.kind = Kind::planar;
-    loose.first = xml.planar_normal(joint.Name());
+    loose.first = xml.planar_normal(name);
   } else if (joint.Type() == sdf::JointType::BALL) {
     loose.kind = Kind::ball;
   } else if (joint.Type() == sdf::JointType::UNIVERSAL) {
@@ -250,7 +252,7 @@ void read_kind(const sdf::Joint& joint, const SkeletonXml& xml, LooseJoint& loos
 
 LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   LooseJoint loose;
-  loose.joint.name = joint.Name();
+  loose.joint.name = xml.joint_name(joint.Name());
   loose.joint.type = joint_type(joint.Type());
   refuse_errors(joint.ResolveParentLink(loose.parent), xml);
   refuse_errors(joint.ResolveChildLink(loose.child), xml);

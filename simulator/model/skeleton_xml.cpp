@@ -70,6 +70,9 @@ SkeletonXml::SkeletonXml(const std::string& path) : file_(path) {
                      "a whole SDFormat or URDF file");
   }
   const XMLElement& model = find_model();
+  if (urdf_) {
+    state_world();
+  }
   check_links(model);
   check_joints(model);
 }
@@ -91,6 +94,21 @@ XmlPart SkeletonXml::part_in(const std::string& message) const {
     }
   }
   return {};
+}
+
+void SkeletonXml::state_world() {
+  XMLElement* robot = document_.RootElement();
+  bool hangs = false;
+  for (const XMLElement* joint : children(*robot, "joint")) {
+    const XMLElement* parent = joint->FirstChildElement("parent");
+    hangs = hangs || (parent != nullptr && attribute(*parent, "link") == "world");
+  }
+  for (const XMLElement* link : children(*robot, "link")) {
+    hangs = hangs && attribute(*link, "name") != "world";
+  }
+  if (hangs) {
+    robot->InsertFirstChild(document_.NewElement("link"))->ToElement()->SetAttribute("name", "world");
+  }
 }
 
 const XMLElement& SkeletonXml::find_model() {
@@ -261,10 +279,12 @@ void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part)
   for (const char* end : {"parent", "child"}) {
     const XMLElement* element = joint.FirstChildElement(end);
     const std::string link = element == nullptr ? "" : attribute(*element, "link");
-    if (line_of_link(link) == 0) {
+    const bool known =
+        std::any_of(links_.begin(), links_.end(), [&](const XmlPart& one) { return one.name == link; });
+    if (!known) {
       std::vector<std::string> names;
-      for (const XmlPart& known : links_) {
-        names.push_back(known.name);
+      for (const XmlPart& one : links_) {
+        names.push_back(one.name);
       }
       refuse({part.name + " " + end, element == nullptr ? part.line : element->GetLineNum()},
              "\"" + link + "\"", "the name of a link" + nearest_names(link, names));
@@ -317,6 +337,11 @@ void SkeletonXml::keep_fixed_joints(XMLElement& robot) {
   }
 }
 
+std::string SkeletonXml::joint_name(const std::string& read) const {
+  const auto found = renamed_.find(read);
+  return found == renamed_.end() ? read : found->second;
+}
+
 std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
   XMLElement& robot = *document_.RootElement();
   for (const char* extension : {"gazebo", "transmission"}) {
@@ -339,6 +364,17 @@ std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
       placeholder.Parse(
           "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>");
       link->InsertEndChild(placeholder.RootElement()->DeepClone(&document_));
+    }
+  }
+  for (XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    const std::string name = attribute(*joint, "name");
+    const bool is_link =
+        std::any_of(links_.begin(), links_.end(), [&](const XmlPart& one) { return one.name == name; });
+    if (is_link) {
+      const std::string other = name + "__joint";
+      renamed_[other] = name;
+      joint->SetAttribute("name", other.c_str());
     }
   }
   keep_fixed_joints(robot);

@@ -28,7 +28,8 @@ enum class UrdfShapes { left_out, kept };
 
 /// Reads an .sdf or .urdf and checks its parts: one model and nothing nested, known joint types, each name
 /// once, numbers of every inertial (mass > 0, principal moments > 0, none larger than the sum of the other
-/// two). Throws InputError with file, line, link or joint.
+/// two). A URDF whose joints hang on a link "world" that it does not state, as Drake reads it, gets that
+/// link. Throws InputError with file, line, link or joint.
 class SkeletonXml {
  public:
   explicit SkeletonXml(const std::string& path);
@@ -57,10 +58,15 @@ class SkeletonXml {
   /// physics is read.
   std::string urdf_for_sdformat(UrdfShapes shapes);
 
+  /// The file's own name of a joint that libsdformat has read: one that is called as a link goes by another
+  /// there.
+  std::string joint_name(const std::string& read) const;
+
   [[noreturn]] void refuse(const XmlPart& part, const std::string& found, const std::string& expected) const;
 
  private:
   const tinyxml2::XMLElement& find_model();
+  void state_world();
   void check_links(const tinyxml2::XMLElement& model);
   void check_joints(const tinyxml2::XMLElement& model);
   void check_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;
@@ -80,6 +86,7 @@ class SkeletonXml {
   std::vector<XmlPart> links_, joints_;
   std::set<std::string> links_with_inertial_;
   std::set<std::string> floating_;
+  std::map<std::string, std::string> renamed_;     ///< joints called as a link: the file's names
   std::map<std::string, Eigen::Vector3d> planar_;  ///< with their normals
 };
 

@@ -89,6 +89,33 @@ void expect_tree(const Skeleton& skeleton) {
   }
 }
 
+TEST_F(SkeletonTest, AJointOfAUrdfMayBeCalledAsALinkIs) {
+  const Skeleton skeleton = read("arm.urdf", R"(<robot name="arm">
+  <link name="base"/>
+  <link name="arm"><inertial><origin xyz="0 0 -0.3"/><mass value="2"/>
+    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.05"/></inertial></link>
+  <joint name="arm" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/></joint>
+  <link name="tool"><inertial><mass value="1"/>
+    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.05"/></inertial></link>
+  <joint name="tool" type="fixed"><parent link="arm"/><child link="tool"/></joint>
+</robot>)");
+  ASSERT_EQ(skeleton.joints.size(), 3U);
+  EXPECT_EQ(skeleton.joints[1].name, "arm");
+  EXPECT_EQ(skeleton.joints[1].type, JointType::revolute);
+  EXPECT_EQ(skeleton.joints[2].name, "tool");
+}
+
+TEST_F(SkeletonTest, AWorldThatJointsHangOnNeedNotBeStated) {
+  const Skeleton skeleton = read("hanging.urdf", R"(<robot name="hanging">
+  <link name="arm"><inertial><origin xyz="0 0 -0.3"/><mass value="2"/>
+    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.05"/></inertial></link>
+  <joint name="pivot" type="continuous"><parent link="world"/><child link="arm"/><axis xyz="0 1 0"/></joint>
+</robot>)");
+  ASSERT_EQ(skeleton.joints.size(), 1U);
+  EXPECT_EQ(skeleton.joints[0].name, "pivot");
+  EXPECT_EQ(skeleton.bodies[static_cast<std::size_t>(skeleton.joints[0].child)].name, "arm");
+}
+
 TEST_F(SkeletonTest, ReadsUrdfAndKeepsEveryLink) {
   const Skeleton skeleton = read("arm.urdf", test::kUrdf);
   ASSERT_EQ(skeleton.bodies.size(), 4U);

@@ -143,9 +143,12 @@ std::optional<Group> fitted_group(const Tried& tried, const std::vector<Candidat
 std::optional<Group> best_group(const Tried& tried, const Data& data, const Policy& policy) {
   std::vector<Candidate> candidates;
   std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
-               is_plain_friction);
+               [&](const Candidate& one) { return is_plain_friction(one) && !is_open(tried.stage, one); });
   candidates = at_independent_places(tried.stage.model, std::move(candidates));
-  std::optional<Group> friction = fitted_group(tried, candidates, data, policy);
+  std::optional<Group> friction;
+  if (!candidates.empty()) {
+    friction = fitted_group(tried, candidates, data, policy);
+  }
   const std::size_t before = candidates.size();
   std::copy_if(tried.candidates.begin(), tried.candidates.end(), std::back_inserter(candidates),
                [&](const Candidate& one) { return is_drive_constant(one) && !is_open(tried.stage, one); });
@@ -179,7 +182,10 @@ bool is_ahead_of_promises(const Refit& group, const Tried& tried, const Policy& 
 std::optional<Group> standard_effects(const Tried& tried, const Data& data, const Policy& policy,
                                       const Progress& progress) {
   constexpr std::size_t kLeast = 2;
-  const auto count = std::count_if(tried.candidates.begin(), tried.candidates.end(), is_plain_friction);
+  const auto count =
+      std::count_if(tried.candidates.begin(), tried.candidates.end(), [&](const Candidate& one) {
+        return (is_plain_friction(one) || is_drive_constant(one)) && !is_open(tried.stage, one);
+      });
   const bool is_answered =
       !tried.refits.empty() && is_below(policy.finished, tried.refits.front().estimate, data);
   if (static_cast<std::size_t>(count) < kLeast || is_answered) {

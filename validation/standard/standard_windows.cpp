@@ -120,10 +120,10 @@ WindowsFit fitted(const model::Model& model, const FreeModel* torques, const Fol
   fit.stage.model = free.model;
   take_better_start(free, torques, some.data, fit.stage);
   PredictorPool few(free.model, some.data);
-  search(few, free, {12, 1e-3, false}, fit.stage);
+  search(few, free, {8, 3e-3, false}, fit.stage);
   PredictorPool pool(free.model, all);
   fit.stage.estimate =
-      gauss_newton(pool, fit.stage.parameters, fit.stage.estimate.theta, {}, {6, 1e-4, false});
+      gauss_newton(pool, fit.stage.parameters, fit.stage.estimate.theta, {}, {4, 1e-3, false});
   fit.precision = precision_of(pool, all.windows_of(Role::train), fit.stage.parameters, fit.stage.estimate);
   fit.values = static_cast<int>(free.values.size());
   fit.at_limits = at_limits(free, fit.stage.estimate.theta);
