@@ -35,6 +35,7 @@
 #include "simulator/effects/spring.h"
 #include "simulator/effects/stribeck.h"
 #include "simulator/effects/switch_lateness.h"
+#include "simulator/effects/thermal_motor.h"
 #include "simulator/effects/torque_bias.h"
 #include "simulator/effects/torque_constant_error.h"
 #include "simulator/effects/torque_saturation.h"
@@ -73,6 +74,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const TorqueConstantError>(),
       std::make_shared<const TorqueSaturation>(),
       std::make_shared<const VoltageLimit>(),
+      std::make_shared<const ThermalMotor>(),
       std::make_shared<const ActuatorLag>(),
       std::make_shared<const CurrentLoop>(),
       std::make_shared<const CommandDelay>(),

@@ -29,6 +29,17 @@ Winding winding_of(const YamlNode& node, bool angular) {
   if (const auto given = node.find("back_emf")) {
     winding.back_emf =
         read_quantity(*given, {"V s/" + position_unit(angular), Sign::not_negative, false, {}});
+    // One number in SI: what the current gives in torque, the motion gives in voltage (power in, power out).
+    // Data sheets differ by up to sqrt(3) in what they call a phase's voltage and current, and by losses.
+    constexpr double kMostApart = 2.0;
+    const double k = winding.torque_constant.value;
+    const double ke = winding.back_emf.value;
+    if (ke > 0.0 && (k > kMostApart * ke || ke > kMostApart * k)) {
+      given->refuse("a back EMF of " + number_text(ke, 4) + " V s/" + position_unit(angular) +
+                        " that contradicts the torque constant of " + number_text(k, 4) + " " +
+                        force_unit(angular) + "/A",
+                    "about the same number in SI, from half to twice (is one of them per 1000 rpm?)");
+    }
   }
   return winding;
 }

@@ -192,11 +192,6 @@ void add_grounds_and_rails(Laws& laws) {
 
 void add_actuators(Laws& laws) {
   laws.push_back(std::make_shared<const FormulaTorque>(
-      declare("heating_motor", "a torque constant that fades with the heat of the winding",
-              "torque = u*(1 - fade*heat); heat_rate = u^2", Place::motor, {strength("fade")}, {"heat"}),
-      TorqueFormula{[](double u, double heat, const double* p) { return u * (1.0 - p[0] * heat); },
-                    [](double u, double, const double*) { return u * u; }}));
-  laws.push_back(std::make_shared<const FormulaTorque>(
       declare("coarse_converter", "an amplifier that knows a few values only, with a soft edge between them",
               "torque = u - step/(2*pi)*sin(2*pi*u/step)", Place::motor, {strength("step")}),
       TorqueFormula{[](double u, double, const double* p) {

@@ -13,7 +13,6 @@ const std::vector<Row>& leg_bench_foreign_rows() {
       {"relaxing_spring", "leg_angle", "stiffness=3"},
       {"detent", "shin", "force=0.4,centre=-0.349"},
       {"two_waves", "mLS", "force=0.02"},
-      {"heating_motor", "mLA", "fade=0.04"},
       {"coarse_converter", "mLS", "step=0.6"},
       {"slewing_amplifier", "mLA", "rate=80"},
       {"eddy_brake", "mLS", "peak=0.01,speed=10"},
@@ -26,7 +25,7 @@ const std::vector<Row>& leg_bench_foreign_rows() {
 const std::vector<Row>& pendulum_foreign_rows() {
   static const std::vector<Row> kRows{
       {"sticky_spot", "shoulder", "level=0.025,centre=0,speed=0.005"},
-      {"heating_motor", "drive", "fade=0.3"},
+      {"eddy_brake", "drive", "peak=1e-3,speed=10"},
       {"two_waves", "drive", "force=8e-4"},
   };
   return kRows;

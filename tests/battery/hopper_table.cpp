@@ -76,6 +76,9 @@ const std::vector<Row>& hopper_rows() {
       {"encoder_eccentricity", "height", "sine=3e-5|8e-5|2.4e-4,cosine=0,waves=100"},
       {"encoder_eccentricity", "drive", "sine=1.5e-3|4e-3|0.01,cosine=1.5e-3|4e-3|0.01,waves=1"},
       {"encoder_eccentricity", "spring", "sine=3e-5|8e-5|2.4e-4,cosine=0,waves=200"},
+      {"thermal_motor", "drive",
+       "magnet_sag=0,copper_sag=5e-5|2e-4|5e-4,heating=1,winding_time=20,housing_time=300,share=0.1,copper=3."
+       "9e-3,ambient=293.15"},
       {"torque_saturation", "drive", "sag=3e-4|8e-4|2.5e-3"},
       {"voltage_limit", "drive", "stall_torque=3+1.7|1.5|1.3,no_load_speed=200+30"},
       {"gear_efficiency", "drive",

@@ -101,6 +101,12 @@ const std::vector<Row>& leg_bench_rows() {
       {"encoder_eccentricity", "mLS", "sine=5e-3|0.04,cosine=5e-3|0.04,waves=1"},
       {"encoder_eccentricity", "thigh", "sine=3e-4|2e-3,cosine=3e-4|2e-3,waves=2"},
       {"encoder_eccentricity", "knee", "sine=5e-3|0.03,cosine=5e-3|0.03,waves=2"},
+      {"thermal_motor", "mLA",
+       "magnet_sag=0,copper_sag=3e-4|3e-3,heating=5,winding_time=20,housing_time=300,share=0.1,copper=3.9e-3,"
+       "ambient=293.15"},
+      {"thermal_motor", "mLS",
+       "magnet_sag=0,copper_sag=3e-4|3e-3,heating=2,winding_time=20,housing_time=300,share=0.1,copper=3.9e-3,"
+       "ambient=293.15"},
       {"torque_saturation", "mLA", "sag=8e-3|0.07"},
       {"voltage_limit", "mLA", "stall_torque=1.0+0.95|0.45,no_load_speed=60+15"},
       {"gear_efficiency", "mLA", "loss_driving=3e-3|0.025,loss_driven=1e-3|8e-3,smoothing_speed=0.03"},
@@ -148,6 +154,9 @@ const std::vector<Row>& pendulum_rows() {
       {"torque_constant_error", "drive", "scale=1+5.6e-4|4.9e-3"},
       {"current_loop", "drive", "time_constant=5e-5|4e-4,damping_ratio=0.5"},
       {"encoder_eccentricity", "drive", "sine=2e-3|0.015,cosine=2e-3|0.015,waves=1"},
+      {"thermal_motor", "drive",
+       "magnet_sag=0,copper_sag=4e-4|4e-3,heating=200,winding_time=20,housing_time=300,share=0.1,copper=3.9e-"
+       "3,ambient=293.15"},
       {"torque_saturation", "drive", "sag=0.1|0.9"},
       {"voltage_limit", "drive", "stall_torque=0.1+0.06|0.045,no_load_speed=300+30"},
       {"gear_efficiency", "drive", "loss_driving=8e-4|7e-3,loss_driven=3e-4|2.5e-3,smoothing_speed=0.1"},

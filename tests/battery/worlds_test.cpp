@@ -123,6 +123,8 @@ TEST(Worlds, DrivesAndWhatRattlesAreTheSimulatorsTwin) {
        {"voltage_limit@mLA:stall_torque=1.2,no_load_speed=50", "torque_saturation@mLS:sag=0.2",
         "asymmetric_spring@thigh:stiffness_above=4,stiffness_below=1,rest=0.349",
         "current_loop@mLA:time_constant=0.01,damping_ratio=0.4",
+        "thermal_motor@mLA:magnet_sag=2e-3,copper_sag=3.9e-3,heating=50,winding_time=0.3,"
+        "housing_time=2,share=0.3,copper=3.9e-3,ambient=293.15",
         "encoder_eccentricity@mLS:sine=0.03,cosine=-0.02,waves=1",
         "resonator@leg_shape:inertia=0.08,frequency=6,damping_ratio=0.1"}) {
     EXPECT_LT(farthest("leg_bench", "robots/mabel/experiments/mimo.yaml", hidden, 0.5, false), kSame)

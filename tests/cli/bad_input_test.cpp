@@ -266,6 +266,28 @@ INSTANTIATE_TEST_SUITE_P(
                  {{kModel, "damping:", "dampng:"}},
                  kCheckModel,
                  {"robot/model.yaml:24", "found an unknown parameter, expected", "did you mean damping?"}},
+        BadInput{"drive_law_without_a_motor",
+                 {{kModel, "effect: viscous\n    at: drive", "effect: voltage_limit\n    at: shoulder"}},
+                 kCheckModel,
+                 {"robot/model.yaml:22", "found \"shoulder\", expected", "drive"}},
+        BadInput{
+            "winding_that_contradicts_itself",
+            {{kModel, "command_unit: A", "command_unit: V"},
+             {kModel,
+              "torque_constant: {value: 0.0525, unit: N m/A, uncertainty: 5 %, source: \"motor data sheet\"}",
+              "winding: {resistance: {value: 1, unit: ohm, source: s}, torque_constant: {value: 0.0525, "
+              "unit: "
+              "N m/A, source: s}, back_emf: {value: 5.5, unit: V s/rad, source: s}}"}},
+            kCheckModel,
+            {"robot/model.yaml:15",
+             "a back EMF of 5.5 V s/rad that contradicts the torque constant of 0.0525"}},
+        BadInput{
+            "below_absolute_zero",
+            {{kModel, "sensors:",
+              "  - {effect: thermal_motor, at: drive, values: {ambient: {value: -1, unit: K, source: s}}}\n\n"
+              "sensors:"}},
+            kCheckModel,
+            {"robot/model.yaml:", "found -1 (SI), expected a value from 0"}},
         BadInput{"unknown_joint",
                  {{kModel, "of: {shoulder: 1}", "of: {sholder: 1}"}},
                  kCheckModel,
@@ -382,6 +404,8 @@ INSTANTIATE_TEST_SUITE_P(
                  {},
                  {"effects", "--json", "nowhere/out.json"},
                  {"nowhere/out.json: found no folder nowhere"}},
+        BadInput{
+            "pictures", {}, {"effects", "--pictures", "/proc/pictures"}, {"/proc/pictures: found no folder"}},
         BadInput{"check", {}, {"check", kModel, "--json", "/proc/out.json"}, {"/proc/out.json: found"}},
         BadInput{"simulate",
                  {},

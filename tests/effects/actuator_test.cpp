@@ -76,6 +76,63 @@ TEST(CurrentLoop, SettlesWhereItStays) {
   EXPECT_DOUBLE_EQ(law->torque(-1.7, state, p.data()), -1.7);
 }
 
+constexpr double kAmbient = 293.15;
+
+/// Temperatures of winding and housing after `duration` under a torque that is held.
+State warmed(const ActuatorLaw& law, const Values& p, double u, double duration) {
+  return rk4(
+      [&](const State& s) {
+        State r(2);
+        law.state_rate(u, s.data(), p.data(), r.data());
+        return r;
+      },
+      {kAmbient, kAmbient}, duration, 20000);
+}
+
+// One thermal mass on a housing that stays cold, of a resistance that does not change: T = P R (1 -
+// exp(-t/RC)).
+TEST(ThermalMotor, WarmsItsWindingExponentially) {
+  const auto law = law_named("thermal_motor");
+  const double heating = 0.7, winding_time = 25.0, u = 2.0;
+  const Values p = values_of(*law, {{"copper_sag", 3.9e-3},
+                                    {"heating", heating},
+                                    {"winding_time", winding_time},
+                                    {"share", 0.0},
+                                    {"copper", 0.0}});
+  for (const double time : {5.0, 25.0, 200.0}) {
+    const State s = warmed(*law, p, u, time);
+    const double rise = heating * u * u * winding_time * (1.0 - std::exp(-time / winding_time));
+    EXPECT_NEAR(s[0] - kAmbient, rise, 1e-8);
+    EXPECT_NEAR(law->torque(u, s.data(), p.data()), u / (1.0 + 3.9e-3 * rise), 1e-10);
+  }
+}
+
+// In the end the heat that the copper makes goes out through both resistances, one behind the other.
+TEST(ThermalMotor, EndsWhereHeatInIsHeatOut) {
+  const auto law = law_named("thermal_motor");
+  const double heating = 0.02, winding_time = 20.0, housing_time = 90.0, share = 0.2, copper = 3.9e-3,
+               u = -3.0;
+  const Values p = values_of(*law, {{"magnet_sag", 1.5e-3},
+                                    {"heating", heating},
+                                    {"winding_time", winding_time},
+                                    {"housing_time", housing_time},
+                                    {"share", share}});
+  const State s = warmed(*law, p, u, 5000.0);
+  const double resistances = winding_time + share * housing_time;  // of both, in kelvin per heating
+  const double rise = heating * u * u * resistances / (1.0 - heating * u * u * resistances * copper);
+  EXPECT_NEAR(s[0] - kAmbient, rise, 1e-6);
+  EXPECT_NEAR(s[1] - kAmbient, rise * share * housing_time / resistances, 1e-6);
+  EXPECT_NEAR(law->torque(u, s.data(), p.data()), u * (1.0 - 1.5e-3 * (s[1] - kAmbient)), 1e-12);
+}
+
+TEST(ThermalMotor, BeginsColdWhateverIsCommanded) {
+  const auto law = law_named("thermal_motor");
+  const Values p = values_of(*law, {{"copper_sag", 3.9e-3}});
+  double state[2] = {0.0, 0.0};
+  law->settle(7.0, p.data(), state);
+  EXPECT_DOUBLE_EQ(law->torque(7.0, state, p.data()), 7.0);
+}
+
 // Table VII (mLA left): bias 2.597e-2 N m.
 TEST(TorqueBias, AddsToTheCommand) {
   const auto law = law_named("torque_bias");

@@ -76,7 +76,7 @@ TEST(WrittenEquation, IsTheTorque) {
       }
     }
   }
-  EXPECT_EQ(compared, 5);
+  EXPECT_EQ(compared, 6);
 }
 
 TEST(WrittenEquation, IsTheReading) {

@@ -55,6 +55,8 @@ const std::vector<EffectGuide>& effects_guide() {
        "hold weights up to the largest torque, at rest"},
       {"voltage_limit", "winding and supply", "torque_saturation, viscous",
        "the largest torque at rest and at speed"},
+      {"thermal_motor", "winding and supply", "torque_constant_error, viscous that grows",
+       "hold a known weight for minutes, from cold"},
       {"torque_bias", "winding and supply", "preload, coulomb_directional",
        "stand still at many positions, with the motor off and on"},
       {"actuator_lag", "electronics and clocks", "command_delay",

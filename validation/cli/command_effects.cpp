@@ -1,14 +1,15 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <system_error>
 
 #include "simulator/effects/documentation.h"
+#include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
 #include "simulator/trace/table.h"
 #include "validation/api/effects_json.h"
 #include "validation/api/effects_page.h"
 #include "validation/cli/commands.h"
-#include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 
@@ -69,7 +70,12 @@ struct Options {
 
 void write_pictures(const effects::Catalogue& catalogue, const std::string& folder) {
   const std::filesystem::path into = folder;
-  std::filesystem::create_directories(into);
+  std::error_code failed;
+  std::filesystem::create_directories(into, failed);
+  if (failed) {
+    throw InputError(folder + ": found no folder (" + failed.message() +
+                     "), expected one that is there or can be made");
+  }
   for (const auto& [file, picture] : api::effects_pictures(catalogue)) {
     write_text_atomically((into / file).string(), picture);
   }
@@ -77,9 +83,6 @@ void write_pictures(const effects::Catalogue& catalogue, const std::string& fold
 
 void run(const Options& options) {
   const effects::Catalogue catalogue = api::named_effects(options.name);
-  if (!options.pictures.empty()) {
-    check_new_folder(options.pictures);
-  }
   write_json(api::effects_json(catalogue), options.json);
   if (!options.pictures.empty()) {
     write_pictures(catalogue, options.pictures);

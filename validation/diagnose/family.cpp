@@ -18,7 +18,7 @@ const std::vector<std::vector<std::string>>& families() {
        "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
       {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
       {"actuator_lag", "current_loop", "command_delay"},
-      {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit"},
+      {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
       {"cable_stretch", "backlash"},
       {"encoder_offset", "encoder_scale", "encoder_eccentricity"}};
   return kFamilies;
@@ -36,6 +36,7 @@ struct Forerunners {
 const std::vector<Forerunners>& forerunners() {
   static const std::vector<Forerunners> kForerunners{
       {"voltage_limit", {"torque_saturation", "torque_constant_error", "viscous", "quadratic"}},
+      {"thermal_motor", {"torque_constant_error", "torque_saturation"}},
       {"current_loop", {"command_delay", "torque_constant_error"}},
       {"resonator", {"viscous", "spring", "hardening", "rotor_inertia"}}};
   return kForerunners;

@@ -21,6 +21,19 @@ long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::c
 /// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
 constexpr double kStiff = 16.0;
 
+/// Temperatures are carried from the beginning of the record, where the motor is taken as cold; of a longer
+/// one over this time, s.
+constexpr double kHeat = 1800.0;
+
+/// Does a state of the plant change over minutes: a temperature?
+bool remembers_heat(const model::Plant& plant) {
+  const std::vector<std::string> names = plant.state_names();
+  const std::vector<int> carried = plant.carried_states();
+  return std::any_of(carried.begin(), carried.end(), [&](int i) {
+    return names[static_cast<std::size_t>(i)].find("temperature of ") != std::string::npos;
+  });
+}
+
 }  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
@@ -91,7 +104,8 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   if (motion_.size() == 0) {
     measure_motion();
   }
-  const auto reach = static_cast<Eigen::Index>(std::lround(options_.history / trial_.period));
+  const auto history = remembers_heat(plant_) ? kHeat : options_.history;
+  const auto reach = static_cast<Eigen::Index>(std::lround(history / trial_.period));
   Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
   for (const Stretch& stretch : trial_.stretches) {
     from = stretch.first <= window.first ? std::max(from, stretch.first) : from;

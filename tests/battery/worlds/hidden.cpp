@@ -126,9 +126,10 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 20> kOthers{"torque_bias",
+constexpr std::array<const char*, 21> kOthers{"torque_bias",
                                               "torque_saturation",
                                               "voltage_limit",
+                                              "thermal_motor",
                                               "torque_constant_error",
                                               "actuator_lag",
                                               "current_loop",

@@ -99,6 +99,11 @@ void Machine::add_effects() {
       states_ += 2;
       continue;
     }
+    if (effect.effect == "thermal_motor") {
+      warming_.push_back({i, static_cast<int>(states_), effect});
+      states_ += 2;
+      continue;
+    }
     if (effect.effect == "torque_bias") {
       bias_[i] += effect["bias"];
       continue;
@@ -203,6 +208,18 @@ double Machine::through(const Loop& loop, double asked, const State& x, State& r
   return current;
 }
 
+// Heat in joule, with 1 J/K of copper and 1/share J/K of iron; states: how much warmer than at first.
+double Machine::warmed(const Loop& one, double asked, const State& x, State& rate) {
+  const double copper = x[one.state];
+  const double iron = x[one.state + 1];
+  const double made = one.effect["heating"] * asked * asked * (1.0 + one.effect["copper"] * copper);
+  const double crossing = (copper - iron) / one.effect["winding_time"];
+  const double capacity = 1.0 / one.effect["share"];
+  rate[one.state] = made - crossing;
+  rate[one.state + 1] = (crossing - iron * capacity / one.effect["housing_time"]) / capacity;
+  return asked * (1.0 - one.effect["magnet_sag"] * iron) / (1.0 + one.effect["copper_sag"] * copper);
+}
+
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                        const Vector& loads, Vector& passed, State& rate) const {
   passed = Vector::Zero(loads.size());
@@ -218,6 +235,9 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
       u = loop.motor == i ? through(loop, u, x, rate) : u;
     }
     Q[n_ + m] = rig_.motors[i].torque_per_unit * u + bias_[i];
+    for (const Loop& one : warming_) {
+      Q[n_ + m] = one.motor == i ? warmed(one, Q[n_ + m], x, rate) : Q[n_ + m];
+    }
     for (const auto& [motor, winding] : windings_) {
       Q[n_ + m] = motor == i ? delivered(winding, Q[n_ + m], full_rate[n_ + m]) : Q[n_ + m];
     }

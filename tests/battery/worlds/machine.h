@@ -69,7 +69,7 @@ class Machine {
     Law law = nullptr;  // nullptr: it needs a state, or is a compliance
   };
 
-  /// A current loop of second order.
+  /// A current loop of second order, or what warms: a motor with two states.
   struct Loop {
     std::size_t motor = 0;
     int state = 0;
@@ -104,6 +104,7 @@ class Machine {
   void step(const Vector& commands, double h, State& x) const;
   std::vector<bool> sides(const State& x) const;
   void rates(const Vector& commands, Creeping who, const State& x, State& rate) const;
+  static double warmed(const Loop& one, double asked, const State& x, State& rate);
   static double through(const Loop& loop, double asked, const State& x, State& rate);
   Vector forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                 const Vector& loads, Vector& passed, State& rate) const;
@@ -119,7 +120,7 @@ class Machine {
   std::vector<Acting> acting_;
   std::vector<int> lag_state_;  // of each motor; -1: none
   std::vector<double> lag_, bias_, delay_;
-  std::vector<Loop> loops_;
+  std::vector<Loop> loops_, warming_;
   std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action
   bool load_matters_ = false;
   Eigen::Index states_ = 0;

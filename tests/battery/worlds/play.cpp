@@ -115,8 +115,9 @@ std::string why_not(const Case& one, bool mujoco) {
     return "MuJoCo has no robot that hops under a controller";
   }
   for (const Row& row : one.rows) {
-    if (mujoco && (row.effect == "resonator" || row.effect == "current_loop")) {
-      return "MuJoCo's robots have neither masses on springs nor current loops";
+    if (mujoco &&
+        (row.effect == "resonator" || row.effect == "current_loop" || row.effect == "thermal_motor")) {
+      return "MuJoCo's robots have no states of their own";
     }
     if (!is_known(row.effect)) {
       return row.effect == "boom" ? "the foreign worlds are flat: no boom bends their ways"
