@@ -117,14 +117,22 @@ struct Tried {
   Eigen::VectorXd theta, errors;
 };
 
+/// Is it searched in its logarithm? What cannot be below zero is not to end there for a step that was too
+/// long.
+bool is_positive(const FreeParameter& parameter, double start) {
+  return parameter.scale == effects::Scale::linear && parameter.lower >= 0.0 && start > 0.0;
+}
+
 /// From `start`, in the coordinates in which parameters are searched.
 Eigen::VectorXd values_at(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& start,
                           const Eigen::VectorXd& units, const Eigen::VectorXd& delta) {
   Eigen::VectorXd theta = start;
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
     const FreeParameter& one = parameters[static_cast<std::size_t>(p)];
-    const double search = to_search(one.scale, start[p]) + delta[p] * units[p];
-    theta[p] = std::clamp(from_search(one.scale, search), one.lower, one.upper);
+    const double value = is_positive(one, start[p])
+                             ? start[p] * std::exp(delta[p] * units[p] / start[p])
+                             : from_search(one.scale, to_search(one.scale, start[p]) + delta[p] * units[p]);
+    theta[p] = std::clamp(value, one.lower, one.upper);
   }
   return theta;
 }
