@@ -1,9 +1,10 @@
 """Pictures of the benchmark's page as SVG text, and a page of HTML that needs no other file. Used by table.py."""
 
 import html
+import re
 
 COLOURS = ("#1b6ca8", "#d1495b", "#3a7d44", "#e0a030", "#7a5ca8", "#6b7280")
-WIDTH, HEIGHT, LEFT, BOTTOM, TOP = 640, 260, 46, 34, 14
+WIDTH, HEIGHT, LEFT, BOTTOM, TOP = 640, 260, 62, 34, 14
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;max-width:960px;margin:2em auto;padding:0 1em;color:#1a1a1a;background:#fff}
 table{border-collapse:collapse;margin:.8em 0;font-size:13px}td,th{border:1px solid #ccc;padding:2px 7px;text-align:left;vertical-align:top}
 th{background:#f2f4f7}svg{max-width:100%;height:auto}h2{margin-top:1.6em}figcaption{font-size:13px;color:#444}.wide{overflow-x:auto}"""
@@ -79,9 +80,13 @@ def reliability(stated, names, colours):
 
 def as_html(markdown):
     """The few forms that table.py writes: headings, tables, paragraphs; code and links are left as words."""
-    out, rows = [], []
+    out, rows, words = [], [], []
 
     def flush():
+        if words:
+            plain = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", " ".join(words)).replace("`", "")
+            out.append(f"<p>{html.escape(plain)}</p>")
+            words.clear()
         if rows:
             head, *body = [[html.escape(c.strip()) for c in r.strip().strip("|").split("|")] for r in rows if not set(r) <= set("|- ")]
             out.append('<div class="wide"><table><tr>' + "".join(f"<th>{c}</th>" for c in head) + "</tr>"
@@ -90,13 +95,14 @@ def as_html(markdown):
     for line in markdown:
         if line.startswith("|"):
             rows.append(line)
-            continue
-        flush()
-        if line.startswith("#"):
+        elif line.startswith("#"):
+            flush()
             level = len(line) - len(line.lstrip("#"))
             out.append(f"<h{level}>{html.escape(line.lstrip('# '))}</h{level}>")
         elif line:
-            out.append(f"<p>{html.escape(line.replace('`', ''))}</p>")
+            words.append(line)
+        else:
+            flush()
     flush()
     return out
 
