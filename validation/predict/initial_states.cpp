@@ -34,8 +34,8 @@ std::vector<std::vector<int>> runs_of(const Data& data, bool segments_alone) {
 }
 
 /// Work on windows that changes their initial states and normal equations.
-Spread spread_over(const std::string& name, const model::Model& model, const std::vector<int>& windows,
-                   const std::function<void(int)>& work, Point& point, std::vector<Reduced>& reduced) {
+SharedItems spread_over(const std::string& name, const model::Model& model, const std::vector<int>& windows,
+                        const std::function<void(int)>& work, Point& point, std::vector<Reduced>& reduced) {
   const auto result = [&](int i) {
     const auto at = static_cast<std::size_t>(windows[static_cast<std::size_t>(i)]);
     Record record;

@@ -16,7 +16,7 @@ constexpr double kEnough = 1e6;
 
 constexpr char kDone = 'd', kFailed = 'f';
 
-bool is_enough(const Data& data, int count, const Spread& spread) {
+bool is_enough(const Data& data, int count, const SharedItems& spread) {
   double samples = 0.0;
   for (const Window& window : data.windows) {
     samples += static_cast<double>(window.count);
@@ -53,7 +53,7 @@ Eigen::MatrixXd matrix_from(RecordReader& reader) {
 
 }  // namespace
 
-void for_each_item(const Data& data, int count, const Spread& spread) {
+void for_each_item(const Data& data, int count, const SharedItems& spread) {
   if (ranks_of(data) == 1 || count < 2 || !is_enough(data, count, spread)) {
     parallel_for(count, data.threads, spread.work);
     return;
@@ -92,8 +92,8 @@ double cost_of(const model::Model& model, double trajectories) {
   return trajectories * coordinates * coordinates;
 }
 
-Spread spread_of(const std::string& name, const model::Model& model, std::size_t moving,
-                 const std::function<void(int item)>& work, std::vector<Reduced>& all) {
+SharedItems spread_of(const std::string& name, const model::Model& model, std::size_t moving,
+                      const std::function<void(int item)>& work, std::vector<Reduced>& all) {
   const auto result = [&all](int i) {
     Record record;
     add(all[static_cast<std::size_t>(i)], record);
