@@ -130,8 +130,9 @@ class Plant {
 
   /// The states of carried_states() carried in h seconds along a known motion from `from` to `to`, under
   /// commands that hold meanwhile (delayed already); written behind the positions and velocities of x. By the
-  /// exponential Euler method at the middle, each state on its own (Hochbruck and Ostermann, Acta Numerica
-  /// 19, 2010): stable for stiff bristles, exact for a lag of first order.
+  /// exponential Euler method at the middle (Hochbruck and Ostermann, Acta Numerica 19, 2010), stable for
+  /// stiff bristles and exact for a lag of first order; a law's states that are several by the linearly
+  /// implicit midpoint rule.
   void carry_states(const double* from, const double* to, const double* command, double h, double* x) const;
 
   /// Switching functions of all force laws.
