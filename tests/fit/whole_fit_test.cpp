@@ -106,7 +106,7 @@ TEST_F(Tosses, TellTheGroundInOnePiece) {
   const model::Model wrong = with(truth, 0.26, 8e5);
   const Data data(trials, {});
   FitOptions options;
-  options.iterations = 9;
+  options.iterations = 20;
   const Fit fit = fit_whole(wrong, data, free(wrong), options, [](const std::string&, double) {});
   ASSERT_EQ(fit.parameters.size(), 2U);
   for (const FittedParameter& one : fit.parameters) {
