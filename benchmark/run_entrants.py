@@ -4,7 +4,8 @@
 Usage: run_entrants.py CASES_FOLDER ANSWERS_FOLDER --entrant FOLDER [--until HH:MM] [--match TEXT] [-- OPTIONS OF THE ENTRANT]
 
 ENTRANT/run.py is called with the case's folder and a folder for the answer. ANSWERS_FOLDER/NAME/CASE/run.json says how long it took and
-how it ended. What an entrant had written when its time ended counts. A case that was run before is not run again.
+how it ended. What an entrant had written when its time ended counts. A case that was run before is not run again, unless the wall clock ended
+it: that says how busy the machine was, and table.py leaves it out.
 """
 
 import argparse
@@ -55,6 +56,14 @@ def run_case(entrant, case, out, options):
     return report
 
 
+def was_run(out):
+    path = os.path.join(out, "run.json")
+    if not os.path.exists(path):
+        return False
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)["ending"] != "wall clock limit"
+
+
 def main():
     own, rest = sys.argv[1:], []
     if "--" in own:
@@ -69,7 +78,7 @@ def main():
     name = os.path.basename(os.path.normpath(options.entrant))
     for case in sorted(os.listdir(options.cases)):
         out = os.path.join(options.answers, name, case)
-        if options.match not in case or os.path.exists(os.path.join(out, "run.json")):
+        if options.match not in case or was_run(out):
             continue
         if options.until and time.strftime("%H:%M", time.gmtime()) >= options.until:
             break

@@ -3,7 +3,7 @@
 the train recordings, and the candidate that predicts windows of the validation recording best is taken; then once more on top of it.
 
 Stated numbers and the states at which windows begin move along to first order: what they can explain of a window's error is taken off it
-(linear least squares on sensitivities of the stated model, each number held by what is stated of it). Half of the candidates are dropped
+(linear least squares on sensitivities of the stated model, no number beyond two deviations). Half of the candidates are dropped
 each few generations. No constants were chosen on cases of seed 2026.
 
 Usage: run.py CASE_FOLDER OUT_FOLDER
@@ -29,6 +29,7 @@ ROUNDS = ((0.5, 1.0), (0.8, 0.5))  # share of the time at which a round ends, sh
 BETTER = 0.9  # an effect is taken if the validation error falls below this share of what it was
 ENOUGH = 1.3  # an error in units of what sensors leave, below which nothing is asked
 PLAUSIBLE = 0.05
+FARTHEST = 2.0  # deviations of a stated number: case.json's are cut there
 
 
 class Windows:
@@ -68,8 +69,7 @@ class Windows:
                 numbers.append(self.without(((moved - base) / self.floors).reshape(self.count, -1), basis).ravel())
         sensitivity = np.array(numbers).T if numbers else np.zeros((base.size, 0))
         sensitivity = np.nan_to_num(sensitivity, posinf=0.0, neginf=0.0)
-        normal = sensitivity.T @ sensitivity + np.eye(sensitivity.shape[1])
-        return basis, sensitivity, np.linalg.solve(normal, sensitivity.T)
+        return basis, sensitivity, sensitivity.T @ sensitivity + np.eye(sensitivity.shape[1])
 
     @staticmethod
     def without(errors, basis):
@@ -99,13 +99,27 @@ class Windows:
         return np.array([self.loss(p) for p in positions.reshape(len(members), self.count, self.length, -1)])
 
     def loss(self, positions):
-        basis, sensitivity, solver = self.free
+        basis, sensitivity, normal = self.free
         errors = ((self.measured - positions) / self.floors).reshape(self.count, -1)
         if not np.all(np.isfinite(errors)):
             return 1.0e6
         left = self.without(errors, basis).ravel()
-        numbers = solver @ left
+        numbers = bounded(normal, sensitivity.T @ left)
         return float(np.sqrt((np.sum((left - sensitivity @ numbers) ** 2) + np.sum(numbers ** 2)) / left.size))
+
+
+def bounded(normal, right):
+    """Least squares of the stated numbers, in deviations, none beyond FARTHEST: those that want farther stay there, the others follow."""
+    values, held = np.zeros(len(right)), np.zeros(len(right), bool)
+    for _ in range(len(right)):
+        free = ~held
+        values[free] = np.linalg.solve(normal[np.ix_(free, free)], right[free] - normal[np.ix_(free, held)] @ values[held])
+        beyond = free & (np.abs(values) > FARTHEST)
+        if not beyond.any():
+            break
+        worst = int(np.argmax(np.where(beyond, np.abs(values), 0.0)))
+        values[worst], held[worst] = np.copysign(FARTHEST, values[worst]), True
+    return np.clip(values, -FARTHEST, FARTHEST)
 
 
 def merged(effects):
