@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -185,9 +186,21 @@ void ControllerInstance::set_memory(const std::vector<double>& memory) {
   library_.api().set_memory(self_.get(), memory.data());
 }
 
+namespace {
+
+/// Where they are installed, from where the program is.
+std::string installed_controllers() {
+  std::error_code none;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  return none ? "" : (program.parent_path().parent_path() / "lib/plumbline/controllers").string();
+}
+
+}  // namespace
+
 std::string find_controller(const std::string& name) {
   const char* given = std::getenv("PLUMBLINE_CONTROLLERS");
-  std::istringstream folders(std::string(given != nullptr ? given : "") + ":" + PLUMBLINE_CONTROLLERS);
+  std::istringstream folders(std::string(given != nullptr ? given : "") + ":" + PLUMBLINE_CONTROLLERS + ":" +
+                             installed_controllers());
   for (std::string folder; std::getline(folders, folder, ':');) {
     const std::string path = folder + "/" + name + ".so";
     if (!folder.empty() && std::ifstream(path)) {

@@ -72,7 +72,9 @@ class ControllerInstance {
 };
 
 /// The file of a library by its plain name ("mabel_hopping"): in the folders of the environment variable
-/// PLUMBLINE_CONTROLLERS (separated by colons), then where the build leaves them. Empty when there is none.
+/// PLUMBLINE_CONTROLLERS (separated by colons), then where the build leaves them, then where they are
+/// installed beside the program
+/// (../lib/plumbline/controllers). Empty when there is none.
 std::string find_controller(const std::string& name);
 
 }  // namespace plumbline::controllers

@@ -55,7 +55,10 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
     return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   }
   const model::Model model = identified_model(*torques.stage, diagnosis.accepted.size());
-  join(validation::diagnose(model, catalogue, *loaded.data, options, progress), *loaded.data, options,
+  // Behind several effects, hundreds of floors away, no pairs are looked for (Policy::hopeless).
+  validation::Policy further = options;
+  further.firsts = further.linear_pairs = 0;
+  join(validation::diagnose(model, catalogue, *loaded.data, further, progress), *loaded.data, options,
        diagnosis);
   return diagnosis;
 }

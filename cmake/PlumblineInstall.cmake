@@ -1,0 +1,28 @@
+# cmake --install BUILD --prefix DIR, and a Debian package:  cpack -G DEB --config BUILD/CPackConfig.cmake
+# The program finds its controllers beside itself (../lib/plumbline/controllers); robots and the demonstration's trials are
+# data and named by path.
+install(TARGETS plumbline drive RUNTIME DESTINATION bin COMPONENT program)
+foreach(controller hold_position mabel_hopping mabel_walking atrias_running thumper_running)
+  install(TARGETS controller_${controller} LIBRARY DESTINATION lib/plumbline/controllers COMPONENT program)
+endforeach()
+install(FILES controllers/controller.h DESTINATION include/plumbline COMPONENT program)
+install(DIRECTORY robots DESTINATION share/plumbline COMPONENT data)
+install(DIRECTORY validation/trials DESTINATION share/plumbline/validation COMPONENT data)
+install(DIRECTORY docs DESTINATION share/doc/plumbline COMPONENT data)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/plumbline COMPONENT data)
+
+set(CPACK_PACKAGE_NAME plumbline)
+set(CPACK_PACKAGE_VENDOR "Plumbline")
+set(CPACK_PACKAGE_CONTACT "The Plumbline authors <plumbline@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Holds a robot's model against measurements and names the physical effect that is missing")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL program data python)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
+include(CPack)
