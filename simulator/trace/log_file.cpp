@@ -52,6 +52,9 @@ LogFile read_log(const std::string& path, const LogQuestion& question) {
   if (extension == ".h5" || extension == ".hdf5" || extension == ".hdf" || is_hdf5(path)) {
     return read_hdf5_log(path, question.wanted);
   }
+  if (extension == ".db3") {
+    return read_rosbag_log(path, question.wanted);
+  }
   if (extension == ".jsonl" || extension == ".ndjson" || extension == ".json") {
     return read_json_log(path);
   }
@@ -59,7 +62,7 @@ LogFile read_log(const std::string& path, const LogQuestion& question) {
                        extension == ".log" || extension == ".dat" || extension.empty();
   if (!is_text && question.names.empty()) {
     throw InputError({path, 0, ""}, "extension " + extension,
-                     ".csv, .txt, .tsv, .dat, .log, .jsonl, .json, .h5, .hdf5 or .mat");
+                     ".csv, .txt, .tsv, .dat, .log, .jsonl, .json, .h5, .hdf5, .mat or .db3");
   }
   return read_text_log(path, question.names);
 }

@@ -36,7 +36,8 @@ struct LogQuestion {
 /// - JSON lines (.jsonl, .ndjson), or a .json that is a list of objects or an object of lists,
 /// - HDF5 (.h5, .hdf5): every dataset of numbers with one or two dimensions, named by its path without the
 ///   first slash; a matrix gives PATH_1, PATH_2 ..., a compound PATH.FIELD,
-/// - MATLAB (.mat).
+/// - MATLAB (.mat),
+/// - rosbag2 (.db3): see read_rosbag_log.
 /// Throws InputError (file, line, column) for what cannot be read.
 LogFile read_log(const std::string& path, const LogQuestion& question = {});
 
@@ -53,6 +54,10 @@ LogFile read_text_log(const std::string& path, const std::vector<std::string>& n
 LogFile read_json_log(const std::string& path);
 
 LogFile read_hdf5_log(const std::string& path, const std::vector<std::string>& wanted);
+
+/// rosbag2's sqlite3 storage: the topic that `wanted` columns begin with (empty: the only one that can be
+/// read), columns TOPIC.FIELD and TOPIC.log_time, the receipt. Throws InputError with the list of topics.
+LogFile read_rosbag_log(const std::string& path, const std::vector<std::string>& wanted);
 
 /// Seconds since 1970-01-01 of an instant as ISO 8601 writes it (date, `T` or blank, time, perhaps Z or an
 /// offset; without one UTC); NaN when the text is none.
