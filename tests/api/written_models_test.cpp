@@ -60,7 +60,7 @@ void silent(const std::string& /*what*/, double /*share*/) {}
 // Which values are freed, from where, and what is hidden: drawn.
 TEST(WrittenModels, AreWhatFitSays) {
   std::mt19937 random(20261128);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 4; ++i) {
     const Robot& robot = robots()[random() % robots().size()];
     const std::string hidden = robot.hidden[random() % robot.hidden.size()];
     const Loaded loaded = recorded(robot, hidden);
