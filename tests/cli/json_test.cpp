@@ -94,7 +94,7 @@ TEST_F(Json, CheckOfATrial) {
 TEST_F(Json, Compare) {
   const json compared = from({"compare", "trials/steps", "trials/swing"});
   EXPECT_THAT(keys(compared), UnorderedElementsAre("train", "held_out", "channels", "windows", "phases",
-                                                   "horizons", "lost", "test", "switches"));
+                                                   "horizons", "lost", "test", "switches", "defects"));
   EXPECT_THAT(keys(compared["horizons"][0]),
               UnorderedElementsAre("trial", "channel", "role", "unit", "horizon", "rms", "windows", "lost"));
   ASSERT_EQ(compared["channels"].size(), 4U);
@@ -132,7 +132,7 @@ TEST_F(Json, Fit) {
       from({"fit", "trials/steps", "--free", "*", "--window", "0.25", "--out", "fitted.yaml"});
   EXPECT_THAT(keys(fitted),
               UnorderedElementsAre("model", "trials", "before", "after", "windows", "confidence",
-                                   "iterations", "converged", "parameters", "saved"));
+                                   "iterations", "converged", "parameters", "saved", "whole"));
   EXPECT_EQ(fitted["windows"], 8);
   EXPECT_TRUE(fitted["after"]["held_out"].is_null());
   ASSERT_EQ(fitted["parameters"].size(), 1U);

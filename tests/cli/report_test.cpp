@@ -30,9 +30,10 @@ TEST_F(Report, ComparesAsCompareDoes) {
   const json compared = read_json("c.json");
   EXPECT_THAT(keys(report), UnorderedElementsAre("format", "robot", "model", "drawn", "ladder", "trials",
                                                  "diagnosis", "whole_trials", "published", "horizons",
-                                                 "unexplained", "estimates", "values", "repeat"));
+                                                 "unexplained", "estimates", "values", "repeat", "defects"));
   EXPECT_TRUE(report["diagnosis"].is_null());
   EXPECT_EQ(report["horizons"][0], compared["horizons"]);
+  EXPECT_EQ(report["defects"][0], compared["defects"]);
   ASSERT_EQ(report["ladder"].size(), 1U);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["train"], compared["train"]);
   EXPECT_DOUBLE_EQ(report["ladder"][0]["held_out"], compared["held_out"]);
