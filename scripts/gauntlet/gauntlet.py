@@ -64,9 +64,18 @@ def run(arguments):
     return done, seconds, processor
 
 
-def errors(trials, data, model, out):
+def folder_of(machine, data):
+    """Trials that lie beside their recordings know them; others are told the folder."""
+    return "" if machine["trials"][0].startswith("{data}") else data
+
+
+def told(folder):
+    return ["--data", folder] if folder else []
+
+
+def errors(trials, folder, model, out):
     file = os.path.join(out, "compare.json")
-    done, _, _ = run(["compare", *trials, "--data", data, "--json", file] + (["--model", model] if model else []))
+    done, _, _ = run(["compare", *trials, *told(folder), "--json", file] + (["--model", model] if model else []))
     if done.returncode:
         return None, done.stderr.strip()
     with open(file) as f:
@@ -91,7 +100,7 @@ def overlay(model, wanted, file):
 
 def by_least_squares(machine, data, trials, file):
     """Writes a model with the values of numpy's least squares of the train trials."""
-    loaded = [pl.load_trial(trial, data=data) for trial in trials]
+    loaded = [pl.load_trial(trial, data=folder_of(machine, data)) for trial in trials]
     model = loaded[0].model
     chain = Slides(machine["slide"]) if "slide" in machine else least_squares.Chain(os.path.join(ROOT, machine["urdf"].format(data=data)))
     stated = {motor["name"]: motor for motor in model.motors}
@@ -115,7 +124,7 @@ def by_least_squares(machine, data, trials, file):
 
 def row(machine, data, out):
     """One machine through everything."""
-    trials = trials_of(machine, data)
+    trials, folder = trials_of(machine, data), folder_of(machine, data)
     os.makedirs(out, exist_ok=True)
     result = {"name": machine["name"], "truth": machine["truth"], "notes": []}
 
@@ -124,12 +133,12 @@ def row(machine, data, out):
         if scores is None and why:
             result["notes"].append(f"{key}: {why}")
 
-    keep("given", *errors(trials, data, "", out))
+    keep("given", *errors(trials, folder, "", out))
     ordinary = os.path.join(out, "least_squares.yaml")
     by_least_squares(machine, data, trials, ordinary)
-    keep("least_squares", *errors(trials, data, ordinary, out))
+    keep("least_squares", *errors(trials, folder, ordinary, out))
     file, best = os.path.join(out, "diagnosis.json"), os.path.join(out, "best.yaml")
-    done, result["seconds"], result["processor"] = run(["diagnose", *trials, "--data", data, "--json", file, "--save", best])
+    done, result["seconds"], result["processor"] = run(["diagnose", *trials, *told(folder), "--json", file, "--save", best])
     with open(os.path.join(out, "diagnosis.txt"), "w") as text:
         text.write(done.stdout + done.stderr)
     if done.returncode:
@@ -141,7 +150,7 @@ def row(machine, data, out):
     result["standard"] = [standard["train"], standard["held_out"]] if standard else None
     result["named"] = [f"{e['effect']} at {e['at']}" for e in answer["accepted"]]
     result["verdict"] = answer["verdict"]
-    keep("best", *errors(trials, data, best, out))
+    keep("best", *errors(trials, folder, best, out))
     return result
 
 
