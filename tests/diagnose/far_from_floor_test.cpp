@@ -12,9 +12,9 @@
 #include "tests/diagnose/bench.h"
 #include "tests/predict/hopper.h"
 #include "validation/diagnose/family.h"
-#include "validation/diagnose/standard_effects.h"
 #include "validation/diagnose/objection.h"
 #include "validation/diagnose/own_parameters.h"
+#include "validation/diagnose/standard_effects.h"
 #include "validation/predict/lost_windows.h"
 #include "validation/twin/twin.h"
 

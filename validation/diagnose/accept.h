@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "validation/diagnose/choose.h"
-#include "validation/diagnose/standard_effects.h"
 #include "validation/diagnose/look_ahead.h"
+#include "validation/diagnose/standard_effects.h"
 
 namespace plumbline::validation {
 

@@ -32,9 +32,9 @@ struct RowTimes {
   std::vector<std::string> remarks;
 };
 
-/// As many rows as rise together (the longest rising subsequence): a time that stands far ahead of those behind
-/// it is left out, not they. Of a first or last row that is farther from the others than these are from each
-/// other nothing is believed either.
+/// As many rows as rise together (the longest rising subsequence): a time that stands far ahead of those
+/// behind it is left out, not they. Of a first or last row that is farther from the others than these are
+/// from each other nothing is believed either.
 std::vector<Eigen::Index> rising_rows(const Eigen::VectorXd& time);
 
 /// Of the time column, or row by row of the rate. A time that begins later than 10^7 s is an absolute one

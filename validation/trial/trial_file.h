@@ -74,10 +74,10 @@ struct TrialFile {
   ColumnUse time;                    ///< without a name where the rate is given
   double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
   LogSampling sampling;
-  bool fill_missing = false;      ///< cells without a number are bridged like gaps; else they are refused
+  bool fill_missing = false;        ///< cells without a number are bridged like gaps; else they are refused
   bool leave_out_bad_rows = false;  ///< rows whose time cannot be; else they are refused
-  std::vector<Section> sections;  ///< what the trial is made of; empty: the whole recording
-  std::vector<Section> left_out;  ///< and what is not used of it
+  std::vector<Section> sections;    ///< what the trial is made of; empty: the whole recording
+  std::vector<Section> left_out;    ///< and what is not used of it
   double clock_shift_uncertainty = 0.0;  ///< s
   std::vector<MeasuredUse> measured;
   std::vector<CommandUse> commands;
