@@ -1,39 +1,12 @@
-// Everything that a user can get wrong, through the real program: exit status 2, one line, nothing written.
-#include <gmock/gmock.h>
+// Files that a user can get wrong, through the real program: exit status 2, one line, nothing written.
+#include "tests/cli/bad_input.h"
 
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <ostream>
-
-#include "tests/cli/robot_folder.h"
 
 namespace plumbline::test {
 namespace {
-
-struct Edit {
-  std::string file, what, by;
-};
-
-struct BadInput {
-  std::string name;
-  std::vector<Edit> edits;  ///< what is wrong with the files; an empty `what` writes a whole file
-  std::vector<std::string> arguments;
-  std::vector<std::string> message;  ///< parts that the one line must have
-};
-
-void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; }
-
-std::string name_of(const testing::TestParamInfo<BadInput>& bad) { return bad.param.name; }
-
-class BadInputs : public RobotFolder, public testing::WithParamInterface<BadInput> {
- protected:
-  void make(const std::vector<Edit>& edits) const {
-    for (const Edit& edit : edits) {
-      edit.what.empty() ? write(edit.file, edit.by) : replace(edit.file, edit.what, edit.by);
-    }
-  }
-};
 
 TEST_P(BadInputs, AreRefusedInOneLineAndNothingIsWritten) {
   const BadInput& bad = GetParam();
@@ -50,13 +23,6 @@ TEST_P(BadInputs, AreRefusedInOneLineAndNothingIsWritten) {
   }
   EXPECT_THAT(changed_since(before), testing::IsEmpty());
 }
-
-const std::vector<std::string> kCompare{"compare", "trials/steps", "--json", "out.json"};
-const std::vector<std::string> kCheckModel{"check", "robot/model.yaml", "--json", "out.json"};
-constexpr const char* kData = "trials/steps/data.csv";
-constexpr const char* kTrial = "trials/steps/trial.yaml";
-constexpr const char* kModel = "robot/model.yaml";
-constexpr const char* kHead = "t [s],u_drive [A],q_drive [rad],q_shoulder [rad]";
 
 /// A text with the bytes of numbers behind it, as in binary files.
 template <typename Number>
@@ -375,176 +341,6 @@ INSTANTIATE_TEST_SUITE_P(
               "drive}\n"}},
             {"fit", "trials/steps", "--model", "new.yaml", "--free", "actuator_lag*", "--json", "out.json"},
             {"new.yaml:4: actuator_lag@drive:time_constant: found an effect at its null values, expected"}}),
-    name_of);
-
-INSTANTIATE_TEST_SUITE_P(
-    Outputs, BadInputs,
-    testing::Values(
-        BadInput{"compare",
-                 {},
-                 {"compare", "trials/steps", "--json", "robot/model.yaml/out.json"},
-                 {"robot/model.yaml/out.json: found", "expected a file that can be written"}},
-        BadInput{"diagnose_save",
-                 {},
-                 {"diagnose", "trials/steps", "--save", "nowhere/found.yaml"},
-                 {"nowhere/found.yaml: found no folder nowhere"}},
-        BadInput{"diagnose_resume",
-                 {},
-                 {"diagnose", "trials/steps", "--resume", "nowhere/kept.txt"},
-                 {"nowhere/kept.txt: found no folder nowhere"}},
-        BadInput{"diagnose_resume_from_something_else",
-                 {},
-                 {"diagnose", "trials/steps", "--resume", "trials/steps/trial.yaml"},
-                 {"trial.yaml:1: found `plumbline: trial/1", "expected `plumbline: results/1 ...`"}},
-        BadInput{"diagnose_resume_and_save",
-                 {},
-                 {"diagnose", "trials/steps", "--resume", "found.yaml", "--save", "found.yaml"},
-                 {"found.yaml: --resume: found the file of --save or --json, expected a file of its own"}},
-        BadInput{"effects",
-                 {},
-                 {"effects", "--json", "nowhere/out.json"},
-                 {"nowhere/out.json: found no folder nowhere"}},
-        BadInput{
-            "pictures", {}, {"effects", "--pictures", "/proc/pictures"}, {"/proc/pictures: found no folder"}},
-        BadInput{"check", {}, {"check", kModel, "--json", "/proc/out.json"}, {"/proc/out.json: found"}},
-        BadInput{"simulate",
-                 {},
-                 {"simulate", "trials/steps", "--out", "/proc/trace.csv"},
-                 {"/proc/trace.csv: found"}},
-        BadInput{"simulate_kind",
-                 {},
-                 {"simulate", "trials/steps", "--out", "trace.txt"},
-                 {"trace.txt: found extension \".txt\", expected .csv or .mat"}},
-        BadInput{"simulate_onto_its_data",
-                 {},
-                 {"simulate", "trials/steps", "--out", "trials/steps/data.csv"},
-                 {"trials/steps/data.csv: found one of the files that are read, expected another"}},
-        BadInput{"simulate_json",
-                 {},
-                 {"simulate", "trials/steps", "--out", "trace.csv", "--json", "robot/model.yaml/out.json"},
-                 {"robot/model.yaml/out.json: found"}},
-        BadInput{"fit",
-                 {},
-                 {"fit", "trials/steps", "--free", "*", "--json", "out.json", "--out", "/proc/new.yaml"},
-                 {"/proc/new.yaml: found"}},
-        BadInput{
-            "fit_onto_its_base",
-            {},
-            {"fit", "trials/steps", "--free", "*", "--out", kModel, "--json", "out.json"},
-            {"robot/model.yaml: found one of the files that are read, expected another file to write to"}},
-        BadInput{"add",
-                 {},
-                 {"add", "coulomb", "--at", "drive", "--model", kModel, "--out", "nowhere/new.yaml"},
-                 {"nowhere/new.yaml: found no folder nowhere"}},
-        BadInput{
-            "add_onto_its_base",
-            {},
-            {"add", "coulomb", "--at", "drive", "--model", kModel, "--out", kModel},
-            {"robot/model.yaml: found one of the files that are read, expected another file to write to"}},
-        BadInput{"add_onto_the_base_of_its_base",
-                 {{"new.yaml", "", "plumbline: model/1\nbase: robot/model.yaml\n"}},
-                 {"add", "coulomb", "--at", "drive", "--model", "new.yaml", "--out", kModel},
-                 {"robot/model.yaml: found one of the files that are read"}},
-        BadInput{"new_trial_below_a_file",
-                 {},
-                 {"new-trial", "robot/model.yaml/mine"},
-                 {"robot/model.yaml/mine: found", "expected a new folder"}},
-        BadInput{"new_trial_onto_a_trial",
-                 {},
-                 {"new-trial", "trials/steps"},
-                 {"trials/steps: found a folder that is not empty, expected"}},
-        BadInput{"twin_below_a_file",
-                 {},
-                 {"twin", "--model", kModel, "--experiment", "experiments/steps.yaml", "--out",
-                  "robot/model.yaml"},
-                 {"robot/model.yaml/steps: found", "expected"}}),
-    name_of);
-
-INSTANTIATE_TEST_SUITE_P(
-    Usage, BadInputs,
-    testing::Values(
-        BadInput{"no_command", {}, {}, {"subcommand"}},
-        BadInput{"unknown_command",
-                 {},
-                 {"comprae", "trials/steps"},
-                 {"found an unknown command \"comprae\"", "did you mean compare?"}},
-        BadInput{"unknown_option", {}, {"compare", "trials/steps", "--modle", "x"}, {"--modle"}},
-        BadInput{"no_trial", {}, {"compare"}, {"trial"}},
-        BadInput{"no_pattern", {}, {"fit", "trials/steps"}, {"--free"}},
-        BadInput{"no_place", {}, {"add", "coulomb", "--model", kModel, "--out", "new.yaml"}, {"--at"}},
-        BadInput{
-            "no_base", {}, {"add", "coulomb", "--at", "drive", "--out", "new.yaml"}, {"--model", "--trial"}},
-        BadInput{"no_output", {}, {"add", "coulomb", "--at", "drive", "--model", kModel}, {"--out"}},
-        BadInput{"method", {}, {"simulate", "trials/steps", "--method", "euler"}, {"euler", "explicit_rk"}},
-        BadInput{"tolerance", {}, {"simulate", "trials/steps", "--tolerance", "2"}, {"--tolerance"}},
-        BadInput{"window", {}, {"compare", "trials/steps", "--window", "-1"}, {"--window"}},
-        BadInput{"nothing_to_simulate",
-                 {},
-                 {"simulate"},
-                 {"simulate: found nothing, expected one of TRIAL, --experiment and --scenario"}},
-        BadInput{"experiment_without_model",
-                 {},
-                 {"simulate", "--experiment", "experiments/steps.yaml"},
-                 {"--experiment: found no --model, expected"}},
-        BadInput{"controller_without_scenario",
-                 {},
-                 {"simulate", "trials/steps", "--controller", "hopping.yaml"},
-                 {"--controller", "--scenario"}},
-        BadInput{"trial_and_scenario",
-                 {},
-                 {"simulate", "trials/steps", "--scenario", "hopping.yaml"},
-                 {"simulate: found TRIAL and --scenario, expected one of"}},
-        BadInput{"scenario_without_library",
-                 {{"c.yaml", "", "plumbline: controller/2\nlibrary: none\n"},
-                  {"s.yaml", "",
-                   "plumbline: scenario/1\ntitle: x\nmodel: robot/model.yaml\ncontroller: c.yaml\n"
-                   "length: {value: 1, unit: s}\n"}},
-                 {"simulate", "--scenario", "s.yaml"},
-                 {"c.yaml:2: library: found \"none\"", "PLUMBLINE_CONTROLLERS"}}),
-    name_of);
-
-INSTANTIATE_TEST_SUITE_P(
-    Validation, BadInputs,
-    testing::Values(
-        BadInput{"no_such_robot",
-                 {},
-                 {"validate", "robots/none", "--json", "out.json"},
-                 {"robots/none", "folder"}},
-        BadInput{"nothing_published", {}, {"validate", "robot", "--json", "out.json"}, {"published.yaml"}},
-        BadInput{"published_without_a_scenario",
-                 {{"robot/published.yaml", "",
-                   "plumbline: published/2\ntitle: x\ngaits:\n  walking: {quantities: []}\n"}},
-                 {"validate", "robot", "--json", "out.json"},
-                 {"published.yaml:4", "scenario"}},
-        BadInput{"published_about_another_gait",
-                 {{"robot/published.yaml", "",
-                   "plumbline: published/2\ntitle: x\ngaits:\n  walking: {quantities: []}\n"}},
-                 {"validate", "robot", "--gait", "wlking"},
-                 {"published.yaml", "did you mean walking"}},
-        BadInput{"validation_below_a_file",
-                 {},
-                 {"validate", "robot", "--json", "robot/model.yaml/out.json"},
-                 {"robot/model.yaml/out.json"}},
-        BadInput{"too_few_hops_to_settle", {}, {"validate", "robot", "--enough", "3"}, {"--enough"}},
-        BadInput{"tune_for_nothing",
-                 {{"t.yaml", "", "plumbline: tune/1\npublished: p.yaml\ngait: x\nconstants: []\n"}},
-                 {"tune", "t.yaml"},
-                 {"t.yaml", "constants", "at least one entry"}},
-        BadInput{"start_is_no_number",
-                 {},
-                 {"simulate", "--scenario", PLUMBLINE_ROOT "/robots/mabel/scenarios/hopping.yaml", "--start",
-                  "velocity:travel=fast"},
-                 {"--start", "velocity:travel=fast"}},
-        BadInput{
-            "role_of_nothing", {}, {"simulate", "--scenario", "none.yaml", "--role", "train"}, {"--record"}},
-        BadInput{"record_over_a_folder",
-                 {},
-                 {"simulate", "--scenario", "none.yaml", "--record", "robot"},
-                 {"robot", "a folder that is not empty"}},
-        BadInput{"platform_without_height",
-                 {},
-                 {"simulate", "--scenario", "none.yaml", "--platform", "1", "2"},
-                 {"--platform"}}),
     name_of);
 
 }  // namespace
