@@ -187,15 +187,8 @@ class Lead {
         given_(tasks.size(), 0.0),
         helper_([this](std::int64_t task) { return done(tasks_, task, watch_); }) {
     waiting_[0] = true;
-    results_.bytes.resize(tasks.size());
-    for (const std::size_t task : order_of(tasks)) {
-      std::optional<std::string> known = watch.known ? watch.known(task) : std::nullopt;
-      if (known) {
-        results_.bytes[task] = std::move(*known);
-      } else {
-        open_.push_back(static_cast<std::int64_t>(task));
-      }
-    }
+    const std::vector<std::size_t> open = open_tasks(tasks, watch, results_);
+    open_.assign(open.begin(), open.end());
   }
 
   Results run() {

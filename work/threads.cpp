@@ -24,15 +24,7 @@ int count_in_environment(const char* name) {
 class Queue {
  public:
   Queue(const std::vector<Task>& tasks, const Watch& watch) : tasks_(tasks), watch_(watch) {
-    results_.bytes.resize(tasks.size());
-    for (const std::size_t task : order_of(tasks)) {
-      std::optional<std::string> known = watch.known ? watch.known(task) : std::nullopt;
-      if (known) {
-        results_.bytes[task] = std::move(*known);
-      } else {
-        open_.push_back(task);
-      }
-    }
+    open_ = open_tasks(tasks, watch, results_);
   }
 
   std::size_t open() const { return open_.size(); }
@@ -112,6 +104,20 @@ std::vector<std::size_t> order_of(const std::vector<Task>& tasks) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t one, std::size_t other) { return length(one) > length(other); });
   return order;
+}
+
+std::vector<std::size_t> open_tasks(const std::vector<Task>& tasks, const Watch& watch, Results& results) {
+  results.bytes.resize(tasks.size());
+  std::vector<std::size_t> open;
+  for (const std::size_t task : order_of(tasks)) {
+    std::optional<std::string> known = watch.known ? watch.known(task) : std::nullopt;
+    if (known) {
+      results.bytes[task] = std::move(*known);
+    } else {
+      open.push_back(task);
+    }
+  }
+  return open;
 }
 
 int started_together() {

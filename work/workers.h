@@ -83,6 +83,9 @@ class Threads : public Workers {
 
 /// The order in which tasks are begun: the longest first, those of unknown duration before all others.
 std::vector<std::size_t> order_of(const std::vector<Task>& tasks);
+/// Those whose results are not there already, in the order in which they are begun; known results are taken
+/// over.
+std::vector<std::size_t> open_tasks(const std::vector<Task>& tasks, const Watch& watch, Results& results);
 
 /// The MPI that the program was built with ("Open MPI 4.1.4"); empty: none.
 std::string mpi_name();

@@ -84,6 +84,10 @@ void SkeletonXml::refuse(const XmlPart& part, const std::string& found, const st
 int SkeletonXml::line_of_link(const std::string& name) const { return line_of(links_, name); }
 int SkeletonXml::line_of_joint(const std::string& name) const { return line_of(joints_, name); }
 
+bool SkeletonXml::has_link(const std::string& name) const {
+  return std::any_of(links_.begin(), links_.end(), [&](const XmlPart& one) { return one.name == name; });
+}
+
 XmlPart SkeletonXml::part_in(const std::string& message) const {
   for (const std::vector<XmlPart>& parts : {joints_, links_}) {
     for (const XmlPart& part : parts) {
@@ -279,9 +283,7 @@ void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part)
   for (const char* end : {"parent", "child"}) {
     const XMLElement* element = joint.FirstChildElement(end);
     const std::string link = element == nullptr ? "" : attribute(*element, "link");
-    const bool known =
-        std::any_of(links_.begin(), links_.end(), [&](const XmlPart& one) { return one.name == link; });
-    if (!known) {
+    if (!has_link(link)) {
       std::vector<std::string> names;
       for (const XmlPart& one : links_) {
         names.push_back(one.name);
@@ -369,9 +371,7 @@ std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
   for (XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     const std::string name = attribute(*joint, "name");
-    const bool is_link =
-        std::any_of(links_.begin(), links_.end(), [&](const XmlPart& one) { return one.name == name; });
-    if (is_link) {
+    if (has_link(name)) {
       const std::string other = name + "__joint";
       renamed_[other] = name;
       joint->SetAttribute("name", other.c_str());

@@ -67,6 +67,7 @@ class SkeletonXml {
  private:
   const tinyxml2::XMLElement& find_model();
   void state_world();
+  bool has_link(const std::string& name) const;
   void check_links(const tinyxml2::XMLElement& model);
   void check_joints(const tinyxml2::XMLElement& model);
   void check_joint(const tinyxml2::XMLElement& joint, const XmlPart& part) const;

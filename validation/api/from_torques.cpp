@@ -17,7 +17,6 @@ using validation::Data;
 using validation::Diagnosis;
 using validation::Finding;
 using validation::FreeModel;
-using validation::FreeParameter;
 using validation::FreeValue;
 using validation::Policy;
 using validation::Progress;
@@ -25,28 +24,12 @@ using validation::Stage;
 using validation::TorqueFinding;
 using validation::TorqueStage;
 
-FreeParameter parameter_of(const FreeValue& value) {
-  FreeParameter parameter;
-  parameter.id = value.id;
-  parameter.label = value.label;
-  parameter.unit = value.unit;
-  parameter.lower = value.lower;
-  parameter.upper = value.upper;
-  parameter.typical = value.spread;
-  parameter.physical = value.physical;
-  if (value.known) {
-    parameter.mean = value.stated;
-    parameter.deviation = value.spread;
-  }
-  return parameter;
-}
-
 Stage stage_of(const FreeModel& free, const Data& data) {
   Stage stage;
   stage.model = free.model;
   Eigen::VectorXd theta(static_cast<Eigen::Index>(free.values.size()));
   for (std::size_t i = 0; i < free.values.size(); ++i) {
-    stage.parameters.push_back(parameter_of(free.values[i]));
+    stage.parameters.push_back(validation::as_parameter(free.values[i]));
     theta[static_cast<Eigen::Index>(i)] = free.values[i].value;
   }
   validation::PredictorPool pool(validation::identified(free), data);

@@ -100,6 +100,9 @@ Comparison compare_trials(const model::Model& model, const Data& data, bool with
 Comparison compare_all(const model::Model& bare, const Data& data, bool with_curves) {
   const model::Model model = with_zero_errors(bare, data);
   Comparison comparison = data.trials.empty() ? Comparison() : compare_trials(model, data, with_curves);
+  if (with_curves) {
+    comparison.defects = defects(model, data);
+  }
   if (data.tests.empty()) {
     return comparison;
   }
@@ -129,9 +132,7 @@ Comparison compare(const model::Model& model, const Data& data, const Estimate& 
 Comparison compare(const model::Model& model, const Data& data) { return compare_all(model, data, false); }
 
 Comparison compare_with_curves(const model::Model& model, const Data& data) {
-  Comparison comparison = compare_all(model, data, true);
-  comparison.defects = defects(model, data);
-  return comparison;
+  return compare_all(model, data, true);
 }
 
 }  // namespace plumbline::validation

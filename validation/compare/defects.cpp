@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "simulator/model/positions_from.h"
 #include "validation/predict/estimate.h"
 #include "validation/predict/lost_windows.h"
-#include "validation/predict/zero_errors.h"
 
 namespace plumbline::validation {
 namespace {
@@ -30,13 +30,7 @@ std::vector<Reading> readings_of(const model::Model& model, const Trial& trial) 
   std::vector<Reading> readings;
   std::vector<Eigen::VectorXd> known;
   const auto add = [&](const std::string& at, bool angular) {
-    Eigen::VectorXd direction(n);
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      x[n + i] = 1.0;
-      direction[i] = plant.velocity_of(at, x.data());
-      x[n + i] = 0.0;
-    }
+    const Eigen::VectorXd direction = model::observe_place(plant, at, 1.0).row.transpose();
     const auto is_same = [&](const Eigen::VectorXd& other) {
       return std::abs(other.dot(direction)) > (1.0 - 1e-9) * other.norm() * direction.norm();
     };
@@ -177,13 +171,12 @@ std::vector<Defect> defects_between(const Data& segments, PredictorPool& pool) {
 
 }  // namespace
 
-std::vector<Defect> defects(const model::Model& bare, const Data& data) {
+std::vector<Defect> defects(const model::Model& model, const Data& data) {
   if (data.trials.empty()) {
     return {};
   }
   std::vector<LostWindow> lost;
-  const Data kept = without_lost(bare, data, lost);
-  const model::Model model = with_zero_errors(bare, kept);
+  const Data kept = without_lost(model, data, lost);
   const Data segments = kept.segments(kShare * data.predict.window);
   std::vector<Defect> all;
   try {

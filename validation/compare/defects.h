@@ -22,9 +22,9 @@ struct Defect {
 };
 
 /// Windows are cut into segments of an eighth of their length, each predicted from its own estimated start
-/// (multiple shooting; Bock 1981), as far as the model can be integrated. With x the start of a segment, x_e
-/// where the prediction of the one before ends, H the information that the residuals give of a start
-/// (Reduced::x_H) and F = d(x_e)/d(x0), the defect
+/// (multiple shooting; Bock 1981), with the model as it is and as far as it can be integrated. With x the
+/// start of a segment, x_e where the prediction of the one before ends, H the information that the residuals
+/// give of a start (Reduced::x_H) and F = d(x_e)/d(x0), the defect
 ///   d = x - x_e,   cov(d) = s^2 (H^-1 + F H_before^-1 F'),
 /// s >= 1 the error of the segments in floors: what the model misses at all times is no event. An impulse
 /// that the model does not know, a stop, a step of the ground stands out at its time and place, where a

@@ -184,6 +184,22 @@ FreeModel free_values(const model::Model& model, const std::map<std::string, Mot
   return Freeing(model, scales).result();
 }
 
+FreeParameter as_parameter(const FreeValue& value, double scale) {
+  FreeParameter parameter;
+  parameter.id = value.id;
+  parameter.label = value.label;
+  parameter.unit = value.unit;
+  parameter.lower = value.lower;
+  parameter.upper = value.upper;
+  parameter.typical = value.spread;
+  parameter.physical = value.physical;
+  if (value.known) {
+    parameter.mean = value.stated;
+    parameter.deviation = value.spread / scale;
+  }
+  return parameter;
+}
+
 void set_value(model::Model& model, const model::ParameterId& id, double value) {
   model.effects[static_cast<std::size_t>(id.effect)].values[static_cast<std::size_t>(id.parameter)].value =
       value;

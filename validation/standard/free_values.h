@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/model/plant.h"
+#include "validation/predict/windows.h"
 
 namespace plumbline::validation {
 
@@ -53,6 +53,10 @@ struct FreeModel {
 /// centre of mass in model::link_box(), rotor inertia not below zero, friction likewise, torque constant at
 /// least a tenth.
 FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales);
+
+/// A value as a parameter of a fit to windows, what is known of it weighed against residuals `scale` times as
+/// large as the floors.
+FreeParameter as_parameter(const FreeValue& value, double scale = 1.0);
 
 /// The model with other values.
 model::Model identified(const FreeModel& free);

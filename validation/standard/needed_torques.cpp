@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/positions_from.h"
 #include "simulator/sensing/low_pass.h"
 #include "simulator/trace/error.h"
 
@@ -60,22 +61,13 @@ Places places_of(const model::Model& model, const Trial& trial, const model::Pla
   const Eigen::MatrixXd motors = measured::motor_map(plant);
   Places found{measured::moving_motors(motors), {}};
   found.W = motors(found.places, Eigen::all);
-  const auto is_floating = [&](const std::string& name) {
-    return std::any_of(model.skeleton.joints.begin(), model.skeleton.joints.end(),
-                       [&](const model::Joint& joint) { return joint.floats && joint.name == name; });
-  };
   for (std::size_t c = 0; c < model.coordinates.size() && found.W.rows() < plant.positions(); ++c) {
     const std::string& name = model.coordinates[c].name;
-    if (is_floating(name)) {
+    if (floats(model, name)) {
       refuse(trial, "a floating base, which no motor holds");
     }
     Eigen::MatrixXd more(found.W.rows() + 1, plant.positions());
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-    for (Eigen::Index i = 0; i < more.cols(); ++i) {
-      x[plant.positions() + i] = 1.0;
-      more(found.W.rows(), i) = plant.velocity_of(name, x.data());
-      x[plant.positions() + i] = 0.0;
-    }
+    more.row(found.W.rows()) = model::observe_place(plant, name, 1.0).row;
     more.topRows(found.W.rows()) = found.W;
     if (Eigen::FullPivLU<Eigen::MatrixXd>(more).rank() == more.rows()) {
       found.W = more;
@@ -83,25 +75,6 @@ Places places_of(const model::Model& model, const Trial& trial, const model::Pla
     }
   }
   return found;
-}
-
-/// Mean inertia of each place over a few samples.
-Eigen::VectorXd mean_inertia(const model::Model& model, const MotionSamples& samples) {
-  constexpr std::size_t kLooks = 10;
-  const Trial& trial = *samples.trial;
-  model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
-  const Eigen::Index n = plant.positions();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-  Eigen::VectorXd rate = x;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
-  for (std::size_t i = 0; i < kLooks; ++i) {
-    const Eigen::Index k = samples.used[i * (samples.used.size() - 1) / (kLooks - 1)];
-    x.head(n) = samples.motion.z.col(k);
-    const Eigen::VectorXd command = samples.commands.col(k);
-    plant.rate(x.data(), command.data(), rate.data());
-    sum += (samples.to_places * plant.mass_matrix() * samples.to_places.transpose()).diagonal();
-  }
-  return sum / static_cast<double>(kLooks);
 }
 
 Eigen::MatrixXd filtered(const Eigen::MatrixXd& rows, const MotionSamples& samples) {
@@ -172,6 +145,31 @@ bool place_is_angular(const model::Model& model, int place) {
                                      : model.coordinates[index - model.motors.size()].angular;
 }
 
+bool floats(const model::Model& model, const std::string& name) {
+  const auto& joints = model.skeleton.joints;
+  return std::any_of(joints.begin(), joints.end(),
+                     [&](const model::Joint& joint) { return joint.floats && joint.name == name; });
+}
+
+Eigen::VectorXd mean_over_motion(const model::Model& model, const MotionSamples& samples,
+                                 const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& of) {
+  constexpr std::size_t kLooks = 10;
+  const Trial& trial = *samples.trial;
+  model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
+  const Eigen::Index n = plant.positions();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  Eigen::VectorXd rate = x;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    const Eigen::Index k = samples.used[i * (samples.used.size() - 1) / (kLooks - 1)];
+    x.head(n) = samples.motion.z.col(k);
+    const Eigen::VectorXd command = samples.commands.col(k);
+    plant.rate(x.data(), command.data(), rate.data());
+    sum += of(plant.mass_matrix());
+  }
+  return sum / static_cast<double>(kLooks);
+}
+
 MotionSamples motion_samples(const model::Model& model, const Trial& trial, double motion_cutoff,
                              double force_cutoff) {
   MotionSamples samples;
@@ -204,7 +202,9 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
   samples.motion = measured::differentiated(std::move(z), trial.period);
   samples.commands = means(measured::arrived_commands(plant, trial));
   thin(samples);
-  samples.inertia = mean_inertia(model, samples);
+  samples.inertia = mean_over_motion(model, samples, [&](const Eigen::MatrixXd& M) {
+    return Eigen::VectorXd((samples.to_places * M * samples.to_places.transpose()).diagonal());
+  });
   return samples;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "validation/inverse_model/measured_motion.h"
@@ -28,11 +30,18 @@ const std::string& place_name(const model::Model& model, int place);
 bool is_passive(const model::Model& model, int place);
 int place_index(const model::Model& model, const std::string& name);
 bool place_is_angular(const model::Model& model, int place);
+/// Is it one of the six joints of a floating base?
+bool floats(const model::Model& model, const std::string& name);
 
 /// Throws InputError where the trial does not show every independent position or lacks a moving motor's
 /// command, where a base floats, and where the model has hidden states.
 MotionSamples motion_samples(const model::Model& model, const Trial& trial, double motion_cutoff,
                              double force_cutoff);
+
+/// Mean over a few samples of what is made of the mass matrix there, one number for each independent
+/// position.
+Eigen::VectorXd mean_over_motion(const model::Model& model, const MotionSamples& samples,
+                                 const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& of);
 
 /// Moving places x used samples, N m or N, low-passed:
 ///   e = W^-T (M a + h - Q(u)) / s = W^-T M (a - a(z, v, u)) / s,

@@ -9,15 +9,10 @@
 #include "validation/predict/lost_windows.h"
 #include "validation/predict/reach.h"
 #include "validation/predict/zero_errors.h"
+#include "validation/standard/needed_torques.h"
 
 namespace plumbline::validation {
 namespace {
-
-bool floats(const model::Model& model, const std::string& coordinate) {
-  const auto& joints = model.skeleton.joints;
-  return std::any_of(joints.begin(), joints.end(),
-                     [&](const model::Joint& joint) { return joint.name == coordinate && joint.floats; });
-}
 
 /// Of each motor, and of each joint that moves without one.
 std::map<std::string, MotorScales> scales_of(PredictorPool& pool, const Estimate& given) {
@@ -35,16 +30,7 @@ std::map<std::string, MotorScales> scales_of(PredictorPool& pool, const Estimate
 std::vector<FreeParameter> parameters_of(const FreeModel& free, double scale) {
   std::vector<FreeParameter> parameters;
   for (const FreeValue& value : free.values) {
-    FreeParameter one;
-    one.id = value.id;
-    one.label = value.label;
-    one.unit = value.unit;
-    one.lower = value.lower;
-    one.upper = value.upper;
-    one.typical = value.spread;
-    one.mean = value.stated;
-    one.deviation = value.spread / scale;
-    parameters.push_back(one);
+    parameters.push_back(as_parameter(value, scale));
   }
   return parameters;
 }

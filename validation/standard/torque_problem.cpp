@@ -56,22 +56,10 @@ std::vector<MotionSamples> samples_of(const model::Model& model, const Data& dat
 
 /// Inertia that each moving place feels, mean over a few samples: 1 / (W M^-1 W')_mm.
 Eigen::VectorXd felt_inertia(const model::Model& model, const MotionSamples& samples) {
-  constexpr std::size_t kLooks = 10;
-  const Trial& trial = *samples.trial;
-  model::Plant plant(as_recorded(model, trial), trial.locks, trial.terrain);
-  const Eigen::Index n = plant.positions();
   const Eigen::MatrixXd W = samples.to_places.inverse().transpose();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
-  Eigen::VectorXd rate = x;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
-  for (std::size_t i = 0; i < kLooks; ++i) {
-    const Eigen::Index k = samples.used[i * (samples.used.size() - 1) / (kLooks - 1)];
-    x.head(n) = samples.motion.z.col(k);
-    const Eigen::VectorXd command = samples.commands.col(k);
-    plant.rate(x.data(), command.data(), rate.data());
-    sum += (W * plant.mass_matrix().ldlt().solve(W.transpose())).diagonal().cwiseInverse();
-  }
-  return sum / static_cast<double>(kLooks);
+  return mean_over_motion(model, samples, [&](const Eigen::MatrixXd& M) {
+    return Eigen::VectorXd((W * M.ldlt().solve(W.transpose())).diagonal().cwiseInverse());
+  });
 }
 
 std::map<std::string, MotorScales> scales_of(const model::Model& model,
