@@ -29,7 +29,7 @@ TEST(StandardWindows, ExplainTwoErrorsAtOnce) {
   truth.lower_mass = 0.7;
   const Data data = pendulums::data(truth);
   const std::optional<WindowsFit> fit =
-      standard_by_windows(pendulums::stated(), nullptr, data, 12, pendulums::silent);
+      standard_by_windows(pendulums::stated(), Freed::all, nullptr, data, 12, pendulums::silent);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(value_of(*fit, "viscous@elbow_motor:damping"), truth.viscous, 0.1 * truth.viscous);
   const Scores before = compare(pendulums::stated(), data).scores;
@@ -43,7 +43,7 @@ TEST(StandardWindows, ReportWhatCompareFinds) {
   truth.viscous = 0.03;
   const Data data = pendulums::data(truth);
   const std::optional<WindowsFit> fit =
-      standard_by_windows(pendulums::stated(), nullptr, data, 8, pendulums::silent);
+      standard_by_windows(pendulums::stated(), Freed::all, nullptr, data, 8, pendulums::silent);
   ASSERT_TRUE(fit);
   const Scores again = compare(fitted_model(fit->stage), data).scores;
   EXPECT_NEAR(fit->scores.train, again.train, 0.01 * again.train);

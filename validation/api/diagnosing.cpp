@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -54,6 +55,9 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   if (diagnosis.accepted.empty()) {
     return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   }
+  if (is_for_torques(diagnosis.ladder.back().scores(), options)) {
+    return diagnosis;  // what they name comes first, and what more they ask for is all there is to say
+  }
   const model::Model model = identified_model(*torques.stage, diagnosis.accepted.size());
   // Behind several effects, hundreds of floors away, no pairs are looked for (Policy::hopeless).
   validation::Policy further = options;
@@ -75,36 +79,95 @@ void take_better(std::optional<validation::WindowsFit> other, const Loaded& load
   }
 }
 
-/// Standard identification beside an answer that leaves more than the floor, alone and with what was named,
-/// so that no answer is worse than it. Both ways of it: by the torques, and by windows from there.
-void hold_against_standard(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
-                           const validation::Progress& progress, Answer& answer) {
-  const validation::Scores& found = answer.diagnosis.ladder.back().scores();
+/// What was refused as a name but predicts better, on all windows.
+std::optional<BestModel> unnamed_model(const Loaded& loaded, const Diagnosis& diagnosis,
+                                       const validation::Progress& progress) {
+  if (!diagnosis.unnamed) {
+    return {};
+  }
+  progress("all windows for what is not named", 0.9);
+  BestModel model;
+  model.with_named = diagnosis.unnamed->beside_named;
+  model.with_standard = false;
+  model.unnamed = diagnosis.unnamed->effects;
+  try {
+    model.fit = validation::fitted_on_all(diagnosis.unnamed->stage, *loaded.data);
+  } catch (const validation::Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return {};  // some windows are lost
+  }
+  return model;
+}
+
+/// Standard identification of a model, both ways of it: by the torques, and by windows from there.
+class Standard {
+ public:
+  Standard(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
+           const validation::Progress& progress)
+      : loaded_(loaded),
+        windows_(policy.windows),
+        progress_(progress),
+        by_torques_(torques.standard ? torques.standard
+                                     : torque_identification(loaded.model, *loaded.data, progress)) {}
+
+  /// Of everything, or of the drives with the bodies as stated: what predicts better.
+  std::optional<validation::WindowsFit> of(const model::Model& model) const {
+    const validation::FreeModel* start = by_torques_ ? &by_torques_->free : nullptr;
+    std::optional<validation::WindowsFit> best;
+    for (const validation::Freed freed : {validation::Freed::drives, validation::Freed::all}) {
+      take_better(validation::standard_by_windows(model, freed, start, *loaded_.data, windows_, progress_),
+                  loaded_, best);
+    }
+    return best;
+  }
+
+  std::optional<validation::WindowsFit> alone() const {
+    std::optional<validation::WindowsFit> fit = of(loaded_.model);
+    if (by_torques_) {
+      take_better(validation::as_windows_fit(by_torques_->free, by_torques_->after), loaded_, fit);
+    }
+    return fit;
+  }
+
+ private:
+  const Loaded& loaded_;
+  std::size_t windows_;
+  const validation::Progress& progress_;
+  std::optional<validation::StandardFit> by_torques_;
+};
+
+/// The best model found beside an answer that leaves more than the floor: of what was refused as a name, of
+/// standard identification, and of that on top of what was named. So no answer is worse than any of them.
+/// Where two are as good the first stands.
+void find_best(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
+               const validation::Progress& progress, Answer& answer) {
+  const Diagnosis& diagnosis = answer.diagnosis;
+  const validation::Scores& found = diagnosis.ladder.back().scores();
   if (std::max(found.train, counts(found, loaded)) < policy.finished) {
     return;
   }
-  const std::optional<validation::StandardFit> by_torques =
-      torques.standard ? torques.standard : torque_identification(loaded.model, *loaded.data, progress);
-  const validation::FreeModel* start = by_torques ? &by_torques->free : nullptr;
-  const auto fit = [&](const model::Model& model) {
-    return validation::standard_by_windows(model, start, *loaded.data, policy.windows, progress);
+  double least = (1.0 - policy.material) * counts(found, loaded);
+  const auto take = [&](BestModel model) {
+    if (counts(model.fit.scores, loaded) < least) {
+      least = (1.0 - policy.simpler) * counts(model.fit.scores, loaded);
+      answer.best = std::move(model);
+    }
   };
-  std::optional<validation::WindowsFit> alone = fit(loaded.model);
-  if (by_torques) {
-    take_better(validation::as_windows_fit(by_torques->free, by_torques->after), loaded, alone);
+  if (std::optional<BestModel> model = unnamed_model(loaded, diagnosis, progress)) {
+    take(std::move(*model));
   }
-  if (alone) {
-    answer.standard = StandardRung{alone->scores, alone->values, alone->at_limits};
+  const Standard standard(loaded, torques, policy, progress);
+  if (answer.best || !diagnosis.accepted.empty()) {
+    const BestModel base = answer.best.value_or(BestModel{{}, true, false, {}});
+    if (std::optional<validation::WindowsFit> fit = standard.of(
+            validation::fitted_model(answer.best ? answer.best->fit.stage : diagnosis.final_stage))) {
+      take({std::move(*fit), base.with_named, true, base.unnamed});
+    }
   }
-  std::optional<validation::WindowsFit> both;
-  if (!answer.diagnosis.accepted.empty()) {
-    both = fit(validation::fitted_model(answer.diagnosis.final_stage));
-  }
-  const bool is_both = both && (!alone || counts(both->scores, loaded) <
-                                              (1.0 + policy.simpler) * counts(alone->scores, loaded));
-  std::optional<validation::WindowsFit>& best = is_both ? both : alone;
-  if (best && counts(best->scores, loaded) < (1.0 - policy.material) * counts(found, loaded)) {
-    answer.best = BestModel{std::move(*best), is_both};
+  if (std::optional<validation::WindowsFit> fit = standard.alone()) {
+    answer.standard = StandardRung{fit->scores, fit->values, fit->at_limits};
+    take({std::move(*fit), false, true, {}});
   }
 }
 
@@ -131,7 +194,7 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
       answer.open = torques.stage->open;
     }
     if (!answer.diagnosis.interrupted && !answer.diagnosis.ladder.empty()) {
-      hold_against_standard(loaded, torques, options, progress, answer);
+      find_best(loaded, torques, options, progress, answer);
     }
   } catch (const validation::Stopped&) {
     answer.diagnosis.interrupted = true;  // what is finished stands
@@ -159,6 +222,11 @@ nlohmann::json to_json(const Answer& answer) {
   if (answer.best) {
     json["best_model"] = errors(answer.best->fit.scores);
     json["best_model"]["with_named_effects"] = answer.best->with_named;
+    json["best_model"]["with_standard_identification"] = answer.best->with_standard;
+    json["best_model"]["unnamed"] = nlohmann::json::array();
+    for (const validation::Named& one : answer.best->unnamed) {
+      json["best_model"]["unnamed"].push_back({{"effect", one.effect}, {"at", one.at}});
+    }
     json["best_model"]["values"] = answer.best->fit.values;
     json["best_model"]["at_limits"] = answer.best->fit.at_limits;
   }

@@ -19,11 +19,13 @@ struct StandardRung {
   int values = 0, at_limits = 0;
 };
 
-/// The model that predicts the held-out trials best, where it is not what the diagnosis alone has led to:
-/// with everything beside it that standard identification frees.
+/// The model that predicts the held-out trials best, where it is not what the diagnosis has named: with an
+/// effect that was refused as a name, with everything that standard identification frees, or both.
 struct BestModel {
   validation::WindowsFit fit;
-  bool with_named = false;  ///< what was named is in it; false: it needs nothing beyond what was given
+  bool with_named = false;                 ///< what was named is in it
+  bool with_standard = true;               ///< all that standard identification frees is in it
+  std::vector<validation::Named> unnamed;  ///< effects that are in it for their prediction only
 };
 
 struct Answer {

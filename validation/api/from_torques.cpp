@@ -116,17 +116,20 @@ std::optional<validation::StandardFit> torque_identification(const model::Model&
   }
 }
 
+bool is_for_torques(const validation::Scores& scores, const Policy& policy) {
+  constexpr double kFarther = 5.0;
+  return scores.train > kFarther * policy.hopeless;
+}
+
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                         const Policy& policy, const Progress& progress) {
   FromTorques answer;
-  // What torques tell apart and windows do not is where masses are and what hangs there: one joint has little
-  // of it. And nearer the windows' own search is quicker: 7 s in place of more than a minute at 40 floors.
-  constexpr double kFarther = 5.0;
+  // One joint has little of what torques tell apart. And nearer the windows' own search is quicker: 7 s in
+  // place of more than a minute at 40 floors.
   if (model.motors.size() < 2) {
     return answer;
   }
-  const double given = validation::compare(model, data.thinned(policy.windows)).scores.train;
-  if (given <= kFarther * policy.hopeless) {
+  if (!is_for_torques(validation::compare(model, data.thinned(policy.windows)).scores, policy)) {
     return answer;
   }
   answer.standard = torque_identification(model, data, progress);

@@ -19,9 +19,13 @@ std::optional<validation::StandardFit> torque_identification(const model::Model&
                                                              const validation::Data& data,
                                                              const validation::Progress& progress);
 
-/// Standard identification, and torque_stage() with its frequency, where the train error is above five times
-/// Policy::hopeless: so far from the measurements what a window predicts says little of what is missing.
-/// Nothing for a single motor, and where the torques cannot be asked (TorqueProblem).
+/// Is the train error above five times Policy::hopeless? So far from the measurements what a window predicts
+/// says little of what is missing; what torques tell apart there and windows do not is where masses are and
+/// what hangs there.
+bool is_for_torques(const validation::Scores& scores, const validation::Policy& policy);
+
+/// Standard identification, and torque_stage() with its frequency, where the error is_for_torques(). Nothing
+/// for a single motor, and where the torques cannot be asked (TorqueProblem).
 FromTorques ask_torques(const model::Model& model, const effects::Catalogue& catalogue,
                         const validation::Data& data, const validation::Policy& policy,
                         const validation::Progress& progress);

@@ -192,13 +192,19 @@ void print_torques(const api::Answer& answer) {
   }
   if (answer.best) {
     const validation::WindowsFit& best = answer.best->fit;
+    std::string parts = answer.best->with_named && !answer.diagnosis.accepted.empty() ? "what is named" : "";
+    for (const validation::Named& one : answer.best->unnamed) {
+      parts +=
+          fmt::format("{}{} at {}, which is not named", parts.empty() ? "" : ", with ", one.effect, one.at);
+    }
+    if (answer.best->with_standard) {
+      parts += parts.empty() ? "standard identification, which what is named adds nothing to"
+                             : ", with standard identification of all else";
+    }
     fmt::print(
         "\nBest model found: {}: train {:.3f}, held-out {:.3f}.\nThis is what --save writes. Its {} values "
-        "may "
-        "make up for something that is in no law; they are no names.\n",
-        answer.best->with_named ? "what is named, with standard identification of all else"
-                                : "standard identification, which what is named adds nothing to",
-        best.scores.train, best.scores.held_out, best.values);
+        "may make up for something that is in no law; they are no names.\n",
+        parts, best.scores.train, best.scores.held_out, best.values);
   }
   if (answer.torque_cutoff > 0.0) {
     fmt::print(
@@ -267,7 +273,6 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     const Loaded loaded = load(options->inputs);
     keep_results(loaded, options->resume, {options->save, options->inputs.json});
     api::share_work(loaded, workers());
-    loaded.data->threads = work::cores();
     api::Answer answer;
     {
       ProgressLine progress;

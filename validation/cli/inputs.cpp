@@ -4,6 +4,7 @@
 
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
+#include "work/workers.h"
 
 namespace plumbline::cli {
 
@@ -40,7 +41,9 @@ void add_trial_inputs(CLI::App& command, Inputs& inputs) {
 
 Loaded load(const Inputs& inputs) {
   check_writable(inputs.json);  // before the work, not after it
-  return api::load(inputs, &stop_flag());
+  Loaded loaded = api::load(inputs, &stop_flag());
+  loaded.data->threads = work::cores();
+  return loaded;
 }
 
 }  // namespace plumbline::cli

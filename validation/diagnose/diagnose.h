@@ -81,6 +81,14 @@ struct Rung {
   double foretold() const { return stage.estimate.predicted.scores.held_out; }
 };
 
+/// A refit that was not named, of all those in the last round the one that predicts best: for a model to
+/// predict with, never a name.
+struct Unnamed {
+  std::vector<Named> effects;
+  Stage stage;
+  bool beside_named = true;  ///< what is named is in it, too
+};
+
 enum class Verdict { missing, nothing_missing, unexplained };
 std::string to_string(Verdict verdict);
 
@@ -102,6 +110,7 @@ struct Diagnosis {
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
   Precision precision;
+  std::optional<Unnamed> unnamed;  ///< empty where none predicts better than final_stage
   /// Errors on the trials of role test, in floors, of the model as given and of the final one; 0 without such
   /// trials. They are computed when all is decided.
   double test_before = 0.0, test_after = 0.0;

@@ -258,6 +258,7 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
                           judged(diagnosis.final_stage.estimate, data_)),
               1.0);
   }
+  diagnosis.unnamed = is_named ? std::nullopt : unnamed_of(tried, data_, policy_);
   diagnosis.leads.clear();
   for (const RankRow& row : rows) {
     if (row.refitted && !row.remark.empty()) {

@@ -5,13 +5,12 @@
 #include <tuple>
 
 #include "simulator/effects/parameters.h"
+#include "validation/diagnose/objection.h"
 #include "validation/diagnose/resample.h"
 #include "validation/predict/deviations.h"
 
 namespace plumbline::validation {
 namespace {
-
-Named name_of(const Candidate& candidate) { return {candidate.law->declaration().name, candidate.at}; }
 
 RankRow row_of(const Candidate& candidate) {
   RankRow row;
@@ -44,6 +43,8 @@ std::vector<ParameterValue> chosen_values(const model::EffectUse& use) {
 }
 
 }  // namespace
+
+Named name_of(const Candidate& candidate) { return {candidate.law->declaration().name, candidate.at}; }
 
 std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const Data& data,
                                 const Policy& policy) {
@@ -87,6 +88,34 @@ std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& cho
                     choice.shares[i], choice.objections[i]});
   }
   return rows;
+}
+
+const Refit* best_predicting(const Stage& stage, const std::vector<const Refit*>& refits, const Data& data,
+                             const Policy& policy) {
+  const auto error = [&](const Estimate& estimate) {
+    return data.has(Role::held_out) ? estimate.scores.held_out : estimate.scores.train;
+  };
+  const Refit* best = nullptr;
+  double least = (1.0 - policy.material) * error(stage.estimate);
+  for (const Refit* refit : refits) {
+    if (error(refit->estimate) < least && unphysical(*refit).empty()) {
+      best = refit;
+      least = error(refit->estimate);
+    }
+  }
+  return best;
+}
+
+std::optional<Unnamed> unnamed_of(const Tried& tried, const Data& data, const Policy& policy) {
+  std::vector<const Refit*> refits;
+  for (const Refit& refit : tried.refits) {
+    refits.push_back(&refit);
+  }
+  const Refit* best = best_predicting(tried.stage, refits, data, policy);
+  if (best == nullptr) {
+    return std::nullopt;
+  }
+  return Unnamed{{name_of(tried.candidates[static_cast<std::size_t>(best->candidate)])}, after(*best), true};
 }
 
 Finding finding_of(const Candidate& candidate) {

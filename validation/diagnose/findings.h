@@ -1,6 +1,7 @@
 // What was tried and chosen, in the words of a diagnosis.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "validation/diagnose/choose.h"
@@ -13,6 +14,17 @@ std::vector<RankRow> ranking_of(const Tried& tried, const Choice& choice, const 
                                 const Policy& policy);
 
 std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& choice);
+
+/// The refit that predicts the held-out windows best at the values that the train windows ask for (without
+/// held-out ones, the train windows), if materially better than the stage and with no value at its physical
+/// bound.
+const Refit* best_predicting(const Stage& stage, const std::vector<const Refit*>& refits, const Data& data,
+                             const Policy& policy);
+
+/// The same of what was tried in a round.
+std::optional<Unnamed> unnamed_of(const Tried& tried, const Data& data, const Policy& policy);
+
+Named name_of(const Candidate& candidate);
 
 /// The candidate's name. Places that are rigidly tied to its own are its first rivals.
 Finding finding_of(const Candidate& candidate);

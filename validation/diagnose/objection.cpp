@@ -142,23 +142,6 @@ bool is_level_below_rise(const FreeParameter& one, const Refit& refit) {
          std::none_of(effects.begin(), effects.end(), is_beside);
 }
 
-/// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive, the
-/// level of a dry friction, or what the robot cannot be beyond (keep_physical); empty when there is none.
-std::string unphysical(const Refit& refit) {
-  for (const int effect : refit.added) {
-    const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
-    for (std::size_t p = 0; p < own.parameters.size(); ++p) {
-      const FreeParameter& one = own.parameters[p];
-      if ((own.parameters.size() == 1 || one.physical || one.scale == effects::Scale::reciprocal ||
-           is_level_below_rise(one, refit)) &&
-          on_bound(one, own.theta[static_cast<Eigen::Index>(p)])) {
-        return one.label;
-      }
-    }
-  }
-  return "";
-}
-
 std::string percent(double share) {
   return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
 }
@@ -176,6 +159,21 @@ std::string unless_unsteady(const Check& check) {
 }
 
 }  // namespace
+
+std::string unphysical(const Refit& refit) {
+  for (const int effect : refit.added) {
+    const OwnPart own = part_of(refit, refit.estimate.predicted.theta, effect);
+    for (std::size_t p = 0; p < own.parameters.size(); ++p) {
+      const FreeParameter& one = own.parameters[p];
+      if ((own.parameters.size() == 1 || one.physical || one.scale == effects::Scale::reciprocal ||
+           is_level_below_rise(one, refit)) &&
+          on_bound(one, own.theta[static_cast<Eigen::Index>(p)])) {
+        return one.label;
+      }
+    }
+  }
+  return "";
+}
 
 // The held-out motion may be the one that decides: at the values that serve all windows, of those that the
 // train windows leave open.

@@ -7,6 +7,10 @@
 
 namespace plumbline::validation {
 
+/// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive, the
+/// level of a dry friction, or what the robot cannot be beyond (keep_physical); empty when there is none.
+std::string unphysical(const Refit& refit);
+
 /// Why a refit cannot be the law that it claims, whatever the others do, in a few words: a value at its
 /// bound, or one that cannot be told from no effect. Empty when nothing is wrong with it.
 std::string flaw(const Refit& refit, const Data& data, const Policy& policy);

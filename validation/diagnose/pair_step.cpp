@@ -35,6 +35,22 @@ Choice choose_pair(const Tried& first, const std::vector<Pair>& pairs, const Dat
   return choose(first.stage, refits, data, policy);
 }
 
+/// Of pairs of which none is named, the one that predicts better than all there is so far.
+void keep_best(const std::vector<Pair>& pairs, const Data& data, const Policy& policy, Diagnosis& diagnosis) {
+  const Stage& so_far = diagnosis.unnamed ? diagnosis.unnamed->stage : diagnosis.final_stage;
+  std::vector<const Refit*> refits;
+  for (const Pair& pair : pairs) {
+    refits.push_back(&pair.refit);
+  }
+  const Refit* best = best_predicting(so_far, refits, data, policy);
+  for (const Pair& pair : pairs) {
+    if (&pair.refit == best) {
+      diagnosis.unnamed =
+          Unnamed{{name_of(pair.first), name_of(pair.second)}, after(*best), diagnosis.accepted.empty()};
+    }
+  }
+}
+
 }  // namespace
 
 void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, const Data& data,
@@ -47,7 +63,11 @@ void look_for_pair(const Tried& first, const effects::Catalogue& catalogue, cons
   const std::vector<Pair> pairs = look_ahead(first, catalogue, data, policy, progress);
   const Choice choice = choose_pair(first, pairs, data, policy);
   diagnosis.pairs = pair_rows(pairs, choice);
-  if (accept_half(first, pairs, data, policy, progress, diagnosis) || choice.named < 0) {
+  if (accept_half(first, pairs, data, policy, progress, diagnosis)) {
+    return;
+  }
+  if (choice.named < 0) {
+    keep_best(pairs, data, policy, diagnosis);
     return;
   }
   const Pair& pair = pairs[static_cast<std::size_t>(choice.named)];

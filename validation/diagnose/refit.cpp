@@ -8,6 +8,7 @@
 #include "validation/diagnose/family.h"
 #include "validation/diagnose/first_of_each.h"
 #include "validation/diagnose/judged.h"
+#include "validation/diagnose/race.h"
 #include "validation/diagnose/refit_one.h"
 #include "validation/diagnose/work.h"
 #include "validation/predict/work_ahead.h"
@@ -212,10 +213,13 @@ class Round {
 
   std::vector<Refit> run() {
     // Segments are short enough for a straight line: fewer candidates need a refit.
-    const std::vector<const Hypothesis*> chosen = most_promising(
-        candidates_, hypotheses_,
-        straight_ ? std::min(policy_.refits_segments, policy_.refits) : policy_.refits, policy_.constants);
+    const int places = straight_ ? std::min(policy_.refits_segments, policy_.refits) : policy_.refits;
+    const std::vector<const Hypothesis*> chosen =
+        most_promising(candidates_, hypotheses_, places, policy_.constants);
     by_promise(chosen);
+    if (is_above_ && !is_at_floor()) {
+      by_promise(race(stage_, candidates_, entrants(chosen), data_, progress_));
+    }
     the_long_way(chosen);
     keep_and_finish();
     further_starts();
@@ -242,6 +246,20 @@ class Round {
         add(*chosen[i], static_cast<double>(i) / static_cast<double>(chosen.size()), false);
       }
     }
+  }
+
+  /// Where a straight line says little, its order does, too: the candidates that come next in it.
+  std::vector<const Hypothesis*> entrants(const std::vector<const Hypothesis*>& done) const {
+    constexpr int kTimes = 3;  // as many as have been refitted, with those
+    std::vector<const Hypothesis*> next =
+        most_promising(candidates_, hypotheses_, kTimes * policy_.refits, kTimes * policy_.constants);
+    next.erase(std::remove_if(next.begin(), next.end(),
+                              [&](const Hypothesis* one) {
+                                return std::find(done.begin(), done.end(), one) != done.end() ||
+                                       has_corners(*one);
+                              }),
+               next.end());
+    return next;
   }
 
   /// The next ones that would be refitted as it stands now, one for each rank. Some may turn out not to be

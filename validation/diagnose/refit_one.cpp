@@ -1,6 +1,7 @@
 #include "validation/diagnose/refit_one.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -175,17 +176,21 @@ Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis
   return *best;
 }
 
-bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
-                       const Data& data, const Effort& effort, const Refit& best) {
+double square_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                      const Data& data, const Effort& effort) {
   const EveryThird some(data);
   try {
-    return refit_one(some.of(stage), candidate, some.of(hypothesis), some.data(), effort).square() <
-           some.square_of(best);
+    return refit_one(some.of(stage), candidate, some.of(hypothesis), some.data(), effort).square();
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {
-    return false;
+    return std::numeric_limits<double>::infinity();
   }
+}
+
+bool is_better_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                       const Data& data, const Effort& effort, const Refit& best) {
+  return square_on_some(stage, candidate, hypothesis, data, effort) < EveryThird(data).square_of(best);
 }
 
 void finish_one(Refit& one, double square_before, const Candidate& candidate, const Data& data,

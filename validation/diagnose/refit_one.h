@@ -20,6 +20,10 @@ struct Effort {
 Refit refit_one(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
                 const Data& data, const Effort& effort);
 
+/// Mean square of a refit on every third window of either role, floor units; infinite where it fails.
+double square_on_some(const Stage& stage, const Candidate& candidate, const Hypothesis& hypothesis,
+                      const Data& data, const Effort& effort);
+
 /// A law with corners takes many times the work of all others, and another start of a law mostly ends where
 /// the first did. Above the floor they are refitted on every third window first: is it better there than the
 /// best so far?

@@ -42,9 +42,9 @@ class Freeing {
     free_.own = model.effects.size();
   }
 
-  FreeModel result() {
+  FreeModel result(Freed freed) {
     for (std::size_t b = 0; b < free_.model.skeleton.bodies.size(); ++b) {
-      if (free_.model.skeleton.bodies[b].mass > 0.0) {
+      if (freed == Freed::all && free_.model.skeleton.bodies[b].mass > 0.0) {
         body(static_cast<int>(b));
       }
     }
@@ -180,8 +180,9 @@ class Freeing {
 
 }  // namespace
 
-FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales) {
-  return Freeing(model, scales).result();
+FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales,
+                      Freed freed) {
+  return Freeing(model, scales).result(freed);
 }
 
 FreeParameter as_parameter(const FreeValue& value, double scale) {

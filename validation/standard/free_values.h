@@ -34,6 +34,9 @@ struct FreeValue {
   bool at_limit = false;
 };
 
+/// Which values: all of free_values(), or those of motors and joints only, the bodies' as stated.
+enum class Freed { all, drives };
+
 /// A model with an effect for everything that may move.
 struct FreeModel {
   model::Model model;
@@ -52,7 +55,8 @@ struct FreeModel {
 /// and that by the rms velocity for viscous friction. Limits: mass at least a tenth of the stated one, the
 /// centre of mass in model::link_box(), rotor inertia not below zero, friction likewise, torque constant at
 /// least a tenth.
-FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales);
+FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales,
+                      Freed freed = Freed::all);
 
 /// A value as a parameter of a fit to windows, what is known of it weighed against residuals `scale` times as
 /// large as the floors.

@@ -42,7 +42,6 @@ void fit_below(double cutoff, const model::Model& model, const Data& data, Stand
     fit.torques.push_back({name, place_is_angular(model, motor) ? "N m" : "N",
                            problem.scales().at(name).torque, rms, after.at(motor)});
   }
-  fit.after = compare(found, data).scores;
 }
 
 /// Halved from the highest down to what a window of the train trials still holds one period of.
@@ -65,6 +64,8 @@ std::vector<double> cutoffs_of(const Data& data, const StandardOptions& options)
 
 StandardFit standard_fit(const model::Model& model, const Data& data, const StandardOptions& options,
                          const Progress& progress) {
+  constexpr std::size_t kSome = 8;  // windows of a role that choose the frequency
+  const Data some = data.thinned(kSome);
   const std::vector<double> cutoffs = cutoffs_of(data, options);
   StandardFit best;
   StandardFit last;
@@ -74,6 +75,7 @@ StandardFit standard_fit(const model::Model& model, const Data& data, const Stan
     }
     try {
       fit_below(cutoffs[i], model, data, last);
+      last.after = compare(identified(last.free), some).scores;
     } catch (const InputError&) {
       if (best.torques.empty()) {
         throw;
@@ -85,6 +87,7 @@ StandardFit standard_fit(const model::Model& model, const Data& data, const Stan
     }
   }
   best.before = compare(model, data).scores;
+  best.after = compare(identified(best.free), data).scores;
   return best;
 }
 

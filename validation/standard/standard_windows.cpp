@@ -97,12 +97,12 @@ int at_limits(const FreeModel& free, const Eigen::VectorXd& theta) {
   return count;
 }
 
-WindowsFit fitted(const model::Model& model, const FreeModel* torques, const Followed& some,
+WindowsFit fitted(const model::Model& model, Freed freed, const FreeModel* torques, const Followed& some,
                   const Data& all) {
   WindowsFit fit;
   PredictorPool given(model, some.data);
   fit.stage.estimate = estimate_states(given, some.x0);
-  const FreeModel free = free_values(model, scales_of(given, fit.stage.estimate));
+  const FreeModel free = free_values(model, scales_of(given, fit.stage.estimate), freed);
   fit.stage.model = free.model;
   take_better_start(free, torques, some.data, fit.stage);
   PredictorPool few(free.model, some.data);
@@ -118,8 +118,8 @@ WindowsFit fitted(const model::Model& model, const FreeModel* torques, const Fol
 
 }  // namespace
 
-std::optional<WindowsFit> standard_by_windows(const model::Model& model, const FreeModel* torques,
-                                              const Data& data, std::size_t windows,
+std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed freed,
+                                              const FreeModel* torques, const Data& data, std::size_t windows,
                                               const Progress& progress) {
   if (model.motors.empty()) {
     return {};
@@ -133,7 +133,7 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, const F
     if (!is_whole(some)) {
       return {};
     }
-    WindowsFit fit = fitted(zeroed, torques, some, all);
+    WindowsFit fit = fitted(zeroed, freed, torques, some, all);
     fit.scores = compare(fitted_model(fit.stage), data).scores;
     return fit;
   } catch (const Stopped&) {
@@ -141,6 +141,19 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, const F
   } catch (const std::runtime_error&) {
     return {};  // with so much freedom it cannot be integrated
   }
+}
+
+WindowsFit fitted_on_all(const Stage& stage, const Data& data) {
+  std::vector<LostWindow> lost;
+  const Data all = without_lost(stage.model, data, lost);
+  WindowsFit fit;
+  fit.stage = stage;
+  PredictorPool pool(fitted_model(stage), all);
+  fit.stage.estimate = gauss_newton(pool, stage.parameters, stage.estimate.theta, {}, {12, 1e-4, false});
+  fit.precision = precision_of(pool, all.windows_of(Role::train), stage.parameters, fit.stage.estimate);
+  fit.values = static_cast<int>(stage.parameters.size());
+  fit.scores = compare(fitted_model(fit.stage), data).scores;
+  return fit;
 }
 
 WindowsFit as_windows_fit(const FreeModel& torques, const Scores& scores) {

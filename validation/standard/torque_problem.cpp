@@ -342,12 +342,23 @@ double TorqueProblem::step(FreeModel& free, const TorqueErrors& errors, const To
 }
 
 void TorqueProblem::search(FreeModel& free) const {
-  constexpr int kMostSteps = 20;
+  constexpr int kMostSteps = 60;
   constexpr double kWorthwhile = 0.1;  // of the cost, where 1 is one standard deviation
+  // Errors are affine in nearly all values, so slopes serve for several steps; none is the last without fresh
+  // ones (the chord method: Ortega and Rheinboldt 1970, 7.1).
+  TorqueSlopes held;
   for (int i = 0; i < kMostSteps; ++i) {
     const TorqueErrors errors = this->errors(identified(free));
-    if (step(free, errors, slopes(free, 0, errors)) < kWorthwhile) {
-      return;
+    const bool is_fresh = held.empty();
+    if (is_fresh) {
+      held = slopes(free, 0, errors);
+    }
+    const double gain = step(free, errors, held);
+    if (gain < kWorthwhile) {
+      if (is_fresh) {
+        return;
+      }
+      held.clear();
     }
   }
 }

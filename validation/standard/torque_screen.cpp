@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "validation/diagnose/candidates.h"
 #include "validation/diagnose/own_parameters.h"
@@ -86,11 +87,22 @@ class Screen {
   std::size_t count() const { return fitted_.own.values.size(); }
 
   void ask(const Candidate& candidate, const Origin& from, int most_steps, TorqueCandidate& best) const {
+    // One step from each start tells which is worth more.
+    std::optional<FreeModel> nearest;
+    double least = std::numeric_limits<double>::infinity();
     for (const effects::Values& start : starts_of(from.own.model, candidate)) {
       FreeModel free = extended(from.own, candidate, start);
-      if (free.values.size() > count() && fit(free, from, most_steps)) {
-        keep_if_better(std::move(free), best);
+      if (free.values.size() == count() || !fit(free, from, 1)) {
+        continue;
       }
+      const double cost = problem_.cost(free);
+      if (cost < least) {
+        least = cost;
+        nearest = std::move(free);
+      }
+    }
+    if (nearest && fit(*nearest, from, most_steps - 1)) {
+      keep_if_better(std::move(*nearest), best);
     }
   }
 
@@ -196,24 +208,32 @@ TorqueScreen torque_screen(const TorqueProblem& problem, FreeModel own, const ef
   const Screen screen(problem, std::move(own), data);
   result.own = screen.own();
   const std::vector<Candidate> candidates = candidates_of(result.own, catalogue, data);
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    progress("torques of " + candidates[c].label(),
-             static_cast<double>(c) / static_cast<double>(candidates.size()));
+  const auto stop_if_asked = [&] {
     if (data.stop != nullptr && data.stop->raised) {
       throw Stopped();
     }
-    TorqueCandidate asked = screen.asked(candidates[c]);
-    if (asked.gain > 0.0) {
-      result.ranked.push_back(std::move(asked));
+  };
+  progress("torques of " + std::to_string(candidates.size()) + " candidates", 0.0);
+  std::vector<TorqueCandidate> asked(candidates.size());
+  parallel_for(static_cast<int>(candidates.size()), data.threads, [&](int c) {
+    stop_if_asked();
+    asked[static_cast<std::size_t>(c)] = screen.asked(candidates[static_cast<std::size_t>(c)]);
+  });
+  for (TorqueCandidate& one : asked) {
+    if (one.gain > 0.0) {
+      result.ranked.push_back(std::move(one));
     }
   }
   sort_by_gain(result.ranked);
-  for (std::size_t i = 0; i < std::min(kImproved, result.ranked.size()); ++i) {
+  progress("torques of the most promising", 0.5);
+  parallel_for(static_cast<int>(std::min(kImproved, result.ranked.size())), data.threads, [&](int k) {
+    stop_if_asked();
+    const auto i = static_cast<std::size_t>(k);
     const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& one) {
       return one.label() == result.ranked[i].label();
     });
     screen.improve(*same, result.ranked[i]);
-  }
+  });
   sort_by_gain(result.ranked);
   for (std::size_t i = 0; i < std::min(kSettled, result.ranked.size()); ++i) {
     screen.settle(result.ranked[i]);
