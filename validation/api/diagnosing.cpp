@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/diagnose/finish.h"
 #include "validation/diagnose/found_values.h"
 #include "validation/report/result_json.h"
 
@@ -109,7 +111,8 @@ class Standard {
         windows_(policy.windows),
         progress_(progress),
         by_torques_(torques.standard ? torques.standard
-                                     : torque_identification(loaded.model, *loaded.data, progress)) {}
+                                     : torque_identification(loaded.model, validation::Freed::all,
+                                                             *loaded.data, progress)) {}
 
   /// Of everything, or of the drives with the bodies as stated: what predicts better.
   std::optional<validation::WindowsFit> of(const model::Model& model) const {
@@ -124,8 +127,12 @@ class Standard {
 
   std::optional<validation::WindowsFit> alone() const {
     std::optional<validation::WindowsFit> fit = of(loaded_.model);
-    if (by_torques_) {
-      take_better(validation::as_windows_fit(by_torques_->free, by_torques_->after), loaded_, fit);
+    for (const std::optional<validation::StandardFit>& one :
+         {by_torques_,
+          torque_identification(loaded_.model, validation::Freed::drives, *loaded_.data, progress_)}) {
+      if (one) {
+        take_better(validation::as_windows_fit(one->free, one->after), loaded_, fit);
+      }
     }
     return fit;
   }
@@ -137,9 +144,19 @@ class Standard {
   std::optional<validation::StandardFit> by_torques_;
 };
 
+/// Is a law named that standard identification does not have?
+bool is_beyond_standard(const Diagnosis& diagnosis) {
+  static const std::set<std::string> kStandard{
+      "added_mass",  "com_shift", "rotor_inertia", "torque_constant_error",
+      "torque_bias", "viscous",   "coulomb"};
+  return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
+                     [](const validation::Finding& finding) { return kStandard.count(finding.effect) == 0; });
+}
+
 /// The best model found beside an answer that leaves more than the floor: of what was refused as a name, of
 /// standard identification, and of that on top of what was named. So no answer is worse than any of them.
-/// Where two are as good the first stands.
+/// Where two are as good the first stands. Names without
+/// which standard identification predicts better than with them are withdrawn.
 void find_best(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
                const validation::Progress& progress, Answer& answer) {
   const Diagnosis& diagnosis = answer.diagnosis;
@@ -147,7 +164,7 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
   if (std::max(found.train, counts(found, loaded)) < policy.finished) {
     return;
   }
-  double least = (1.0 - policy.material) * counts(found, loaded);
+  double least = counts(found, loaded);
   const auto take = [&](BestModel model) {
     if (counts(model.fit.scores, loaded) < least) {
       least = (1.0 - policy.simpler) * counts(model.fit.scores, loaded);
@@ -166,8 +183,16 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
     }
   }
   if (std::optional<validation::WindowsFit> fit = standard.alone()) {
-    answer.standard = StandardRung{fit->scores, fit->values, fit->at_limits};
+    constexpr std::size_t kSome = 8;  // windows of a role
+    answer.standard = StandardRung{fit->scores, fit->values, fit->at_limits,
+                                   validation::kind_shares(*fit, loaded.data->thinned(kSome))};
     take({std::move(*fit), false, true, {}});
+  }
+  const bool is_behind =
+      answer.best && !answer.best->with_named &&
+      counts(answer.best->fit.scores, loaded) < (1.0 - policy.material) * counts(found, loaded);
+  if (is_behind && is_beyond_standard(diagnosis)) {
+    validation::withdraw_names(*loaded.data, policy, answer.diagnosis);
   }
 }
 
@@ -217,6 +242,12 @@ nlohmann::json to_json(const Answer& answer) {
     json["standard"] = errors(answer.standard->scores);
     json["standard"]["values"] = answer.standard->values;
     json["standard"]["at_limits"] = answer.standard->at_limits;
+    json["standard"]["rests_on"] = nlohmann::json::array();
+    for (const validation::KindShare& one : answer.standard->rests_on) {
+      json["standard"]["rests_on"].push_back(
+          {{"kind", one.kind},
+           {"without", std::isfinite(one.without) ? nlohmann::json(one.without) : nullptr}});
+    }
   }
   json["best_model"] = nullptr;
   if (answer.best) {

@@ -17,6 +17,7 @@ namespace plumbline::api {
 struct StandardRung {
   validation::Scores scores;  ///< floor units
   int values = 0, at_limits = 0;
+  std::vector<validation::KindShare> rests_on;  ///< on some of the windows
 };
 
 /// The model that predicts the held-out trials best, where it is not what the diagnosis has named: with an

@@ -189,6 +189,12 @@ void print_torques(const api::Answer& answer) {
         "train {:.3f}, held-out\n{:.3f}; {} of {} values at a limit.\n",
         answer.standard->scores.train, answer.standard->scores.held_out, answer.standard->at_limits,
         answer.standard->values);
+    std::string kinds;
+    for (const validation::KindShare& one : answer.standard->rests_on) {
+      kinds += fmt::format("{}{} {:.4g}", kinds.empty() ? "" : ", ", one.kind, one.without);
+    }
+    fmt::print("With one kind of value as stated again, on some of the windows: {} (floors held out).\n",
+               kinds);
   }
   if (answer.best) {
     const validation::WindowsFit& best = answer.best->fit;

@@ -110,6 +110,8 @@ struct Diagnosis {
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
   Precision precision;
+  /// Named at first, but standard identification predicts better without them (finish.h).
+  std::vector<Named> withdrawn;
   std::optional<Unnamed> unnamed;  ///< empty where none predicts better than final_stage
   /// Errors on the trials of role test, in floors, of the model as given and of the final one; 0 without such
   /// trials. They are computed when all is decided.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "validation/diagnose/accept.h"
 #include "validation/diagnose/findings.h"
 #include "validation/diagnose/judged.h"
 #include "validation/diagnose/revise.h"
@@ -166,6 +167,16 @@ bool take_open_values(const Data& all, Diagnosis& diagnosis) {
   stage.estimate.predicted = predicted;
   diagnosis.ladder.back().stage = stage;
   return true;
+}
+
+void withdraw_names(const Data& data, const Policy& policy, Diagnosis& diagnosis) {
+  diagnosis.withdrawn.assign(diagnosis.accepted.begin(), diagnosis.accepted.end());
+  drop_accepted(diagnosis);
+  diagnosis.final_stage = diagnosis.ladder.back().stage;
+  diagnosis.precision = {};
+  diagnosis.unnamed.reset();
+  diagnosis.test_after = test_error(fitted_model(diagnosis.final_stage), data);
+  conclude(data, policy, diagnosis);
 }
 
 void conclude(const Data& data, const Policy& policy, Diagnosis& diagnosis) {

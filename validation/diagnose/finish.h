@@ -21,6 +21,9 @@ void hold_values(const Data& all, const Progress& progress, Diagnosis& diagnosis
 /// its finding says so. True where there is one.
 bool take_open_values(const Data& all, Diagnosis& diagnosis);
 
+/// Nothing is named any more: what was is told as withdrawn.
+void withdraw_names(const Data& data, const Policy& policy, Diagnosis& diagnosis);
+
 /// The verdict, and the share of the squared error above the floor that is left.
 void conclude(const Data& data, const Policy& policy, Diagnosis& diagnosis);
 

@@ -184,11 +184,15 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["cut_windows"] = diagnosis.cut_windows;
   json["test_before"] = test_or_null(diagnosis.test_before);
   json["test_after"] = test_or_null(diagnosis.test_after);
-  for (const char* key : {"accepted", "model_parameters", "ranking", "leads", "pairs", "ladder"}) {
+  for (const char* key :
+       {"accepted", "withdrawn", "model_parameters", "ranking", "leads", "pairs", "ladder"}) {
     json[key] = nlohmann::json::array();
   }
   for (const Finding& finding : diagnosis.accepted) {
     json["accepted"].push_back(to_json(finding));
+  }
+  for (const Named& one : diagnosis.withdrawn) {
+    json["withdrawn"].push_back({{"effect", one.effect}, {"at", one.at}});
   }
   for (const RankRow& row : diagnosis.ranking) {
     json["ranking"].push_back(to_json(row));

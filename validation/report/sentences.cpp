@@ -239,6 +239,21 @@ std::string open_values_sentence(const Diagnosis& diagnosis) {
       last.held_out(), last.foretold());
 }
 
+/// Empty where nothing was withdrawn.
+std::string withdrawn_sentence(const Diagnosis& diagnosis) {
+  if (diagnosis.withdrawn.empty()) {
+    return "";
+  }
+  std::vector<std::string> names;
+  for (const Named& one : diagnosis.withdrawn) {
+    names.push_back(one.effect + " at " + one.at);
+  }
+  return fmt::format(
+      "Not named: {}. Of the catalogue's effects the error falls most with {}, but standard identification "
+      "alone predicts better, and no better with {}.",
+      fmt::join(names, ", "), names.size() > 1 ? "these" : "this", names.size() > 1 ? "them" : "it");
+}
+
 /// What the model states as exact and no laboratory knows exactly, where something stays unexplained; else
 /// empty.
 std::string exact_sentence(const Diagnosis& diagnosis) {
@@ -273,8 +288,9 @@ std::string exact_sentence(const Diagnosis& diagnosis) {
 
 std::vector<std::string> remarks(const Diagnosis& diagnosis) {
   std::vector<std::string> said;
-  for (const std::string& one : {test_sentence(diagnosis), open_values_sentence(diagnosis),
-                                 part_sentence(diagnosis), exact_sentence(diagnosis)}) {
+  for (const std::string& one :
+       {test_sentence(diagnosis), withdrawn_sentence(diagnosis), open_values_sentence(diagnosis),
+        part_sentence(diagnosis), exact_sentence(diagnosis)}) {
     if (!one.empty()) {
       said.push_back(one);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -143,6 +144,44 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed f
   }
 }
 
+std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds{
+      {"masses and centres of mass", {"added_mass", "com_shift"}},
+      {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
+      {"offsets of torque", {"torque_bias"}},
+      {"friction", {"viscous", "coulomb"}}};
+  std::vector<KindShare> shares;
+  for (const auto& [kind, laws] : kKinds) {
+    model::Model model = fitted_model(fit.stage);
+    bool is_freed = false;
+    for (const FreeParameter& one : fit.stage.parameters) {
+      const auto effect = static_cast<std::size_t>(one.id.effect);
+      const model::EffectUse& use = fit.stage.model.effects[effect];
+      if (std::find(laws.begin(), laws.end(), use.law->declaration().name) != laws.end()) {
+        const auto parameter = static_cast<std::size_t>(one.id.parameter);
+        model.effects[effect].values[parameter].value = use.values[parameter].value;
+        is_freed = true;
+      }
+    }
+    if (!is_freed) {
+      continue;
+    }
+    KindShare share{kind, std::numeric_limits<double>::infinity()};
+    try {
+      const Scores scores = compare(model, data).scores;
+      share.without = data.has(Role::held_out) ? scores.held_out : scores.train;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      share.without = std::numeric_limits<double>::infinity();
+    }
+    shares.push_back(share);
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const KindShare& a, const KindShare& b) { return a.without > b.without; });
+  return shares;
+}
+
 WindowsFit fitted_on_all(const Stage& stage, const Data& data) {
   std::vector<LostWindow> lost;
   const Data all = without_lost(stage.model, data, lost);
@@ -167,7 +206,7 @@ WindowsFit as_windows_fit(const FreeModel& torques, const Scores& scores) {
     fit.precision.deviations[static_cast<Eigen::Index>(i)] = torques.values[i].deviation;
   }
   fit.at_limits = at_limits(torques, theta);
-  fit.stage.model = identified(torques);
+  fit.stage.model = torques.model;
   fit.stage.estimate.theta = theta;
   return fit;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "validation/diagnose/screen.h"
 #include "validation/predict/deviations.h"
@@ -29,6 +31,16 @@ struct WindowsFit {
 std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed freed,
                                               const FreeModel* torques, const Data& data, std::size_t windows,
                                               const Progress& progress);
+
+/// A kind of value that standard identification frees, and the error that counts (held-out where there is
+/// one) with all of the kind as stated and the rest as identified.
+struct KindShare {
+  std::string kind;
+  double without = 0.0;  ///< floor units; infinite where it cannot be integrated
+};
+
+/// Of masses, drives, offsets and friction, on the windows of `data`, the largest first.
+std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data);
 
 /// A stage that was fitted to some of the windows, fitted to all. Throws where they cannot be integrated.
 WindowsFit fitted_on_all(const Stage& stage, const Data& data);
