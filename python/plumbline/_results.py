@@ -114,7 +114,7 @@ class Diagnosis(_Result):
     ladder       models in the order in which they were tried, with train and held-out errors
     ranking      best candidates of the first round
     interrupted  stopped before the end: the rest is what was finished
-    model        the Model with what was found
+    model        the best Model found: what is named, and beside it what predicts better still (data["best_model"])
     """
 
     def __init__(self, data, model):

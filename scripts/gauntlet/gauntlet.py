@@ -186,7 +186,10 @@ def main():
     parser.add_argument("--against", default="", help="results.json of an earlier run")
     options = parser.parse_args()
     with open(os.path.join(HERE, "machines.json")) as file:
-        machines = [m for m in json.load(file) if options.only in m["name"]]
+        known = json.load(file)
+    machines = [m for m in known if options.only.lower() in m["name"].lower()]
+    if not machines:
+        sys.exit(f'--only: found "{options.only}", expected a part of one of: {", ".join(m["name"] for m in known)}')
     results = []
     for machine in machines:
         data = os.path.abspath(os.path.join(options.data, machine["data"]))

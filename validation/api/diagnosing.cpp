@@ -1,5 +1,7 @@
 #include "validation/api/diagnosing.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -196,7 +198,8 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
   }
 }
 
-/// The diagnosis with the best model found as its last stage.
+}  // namespace
+
 Diagnosis with_best(const Answer& answer) {
   Diagnosis diagnosis = answer.diagnosis;
   if (answer.best) {
@@ -205,8 +208,6 @@ Diagnosis with_best(const Answer& answer) {
   }
   return diagnosis;
 }
-
-}  // namespace
 
 Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
                 const validation::Progress& progress) {
@@ -232,8 +233,43 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
   return answer;
 }
 
+std::string best_sentence(const Answer& answer) {
+  if (!answer.best || !answer.diagnosis.accepted.empty()) {
+    return "";
+  }
+  const validation::Scores& given = answer.diagnosis.ladder.front().scores();
+  const validation::Scores& best = answer.best->fit.scores;
+  const bool is_held_out = given.held_out > 0.0;
+  std::string with = answer.best->with_standard ? "all that standard identification frees, together" : "";
+  for (const validation::Named& one : answer.best->unnamed) {
+    with += fmt::format("{}{} at {}", with.empty() ? "" : ", and ", one.effect, one.at);
+  }
+  std::string said = fmt::format(
+      "No effect is named. The best model found has {}: the {} error falls from {:.2f} to {:.2f} times the "
+      "floor.",
+      with, is_held_out ? "held-out" : "train", is_held_out ? given.held_out : given.train,
+      is_held_out ? best.held_out : best.train);
+  if (answer.best->with_standard && answer.best->unnamed.empty() && answer.standard) {
+    std::string kinds;
+    constexpr double kNoticeable = 1.05;  // of what is left
+    for (const validation::KindShare& one : answer.standard->rests_on) {
+      if (one.without < kNoticeable * (is_held_out ? best.held_out : best.train)) {
+        continue;
+      }
+      kinds += fmt::format("{}{} ({:.4g} floors with it as stated)", kinds.empty() ? "" : ", ", one.kind,
+                           one.without);
+    }
+    said += fmt::format(" It rests on {}.", kinds);
+  }
+  return said;
+}
+
 nlohmann::json to_json(const Answer& answer) {
   nlohmann::json json = validation::to_json(answer.diagnosis, answer.left);
+  const std::string said = best_sentence(answer);
+  if (!said.empty()) {
+    json["summary"] = said + " " + json["summary"].get<std::string>();
+  }
   const auto errors = [](const validation::Scores& scores) {
     return nlohmann::json{{"train", scores.train}, {"held_out", scores.held_out}};
   };

@@ -41,6 +41,12 @@ struct Answer {
 Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const validation::Policy& options,
                 const validation::Progress& progress);
 
+/// The diagnosis with the best model found as its last stage.
+validation::Diagnosis with_best(const Answer& answer);
+
+/// Where nothing is named and a model was found all the same: what it is, and on what it rests; else empty.
+std::string best_sentence(const Answer& answer);
+
 /// docs/formats/json-results.md, `diagnose`.
 nlohmann::json to_json(const Answer& answer);
 

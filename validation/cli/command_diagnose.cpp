@@ -69,7 +69,8 @@ void print_rivals(const char* what, const Finding& finding, bool same) {
   }
 }
 
-void print_verdict(const Diagnosis& diagnosis) {
+/// `best`: of a model that was found without a name.
+void print_verdict(const Diagnosis& diagnosis, const std::string& best) {
   if (diagnosis.interrupted) {
     fmt::print("Stopped before the end: what follows is what was finished.\n\n");
   }
@@ -83,7 +84,7 @@ void print_verdict(const Diagnosis& diagnosis) {
                last.foretold());
     return;
   }
-  const std::string verdict = validation::verdict_sentence(diagnosis);
+  const std::string verdict = best.empty() ? validation::verdict_sentence(diagnosis) : best;
   if (!verdict.empty()) {
     fmt::print("{}\n", verdict);
   }
@@ -163,8 +164,9 @@ void print_ladder(const std::vector<validation::Rung>& ladder) {
   print_table(head, rows);
 }
 
-void print(const Diagnosis& diagnosis) {
-  print_verdict(diagnosis);
+void print(const api::Answer& answer) {
+  const Diagnosis& diagnosis = answer.diagnosis;
+  print_verdict(diagnosis, api::best_sentence(answer));
   print_ladder(diagnosis.ladder);
   fmt::print(
       "\nHeld-out: at the values that are best for the train trials. Predictive: with what the train trials "
@@ -289,7 +291,7 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
     }
     const Diagnosis& diagnosis = answer.diagnosis;
     write_json(api::to_json(answer), options->inputs.json);
-    print(diagnosis);
+    print(answer);
     print_torques(answer);
     print_unexplained(answer.left);
     if (loaded.data->kept && !loaded.data->kept->is_written()) {
