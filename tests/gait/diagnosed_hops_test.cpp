@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/gait/mabel_hops.h"
-#include "validation/diagnose/diagnose.h"
+#include "validation/identify/diagnose/diagnose.h"
 
 namespace plumbline::validation {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/gait/mabel_hops.h"
-#include "validation/predict/initial_states.h"
-#include "validation/predict/reach.h"
+#include "validation/identify/predict/initial_states.h"
+#include "validation/identify/predict/reach.h"
 
 namespace plumbline::validation {
 namespace {

@@ -7,7 +7,7 @@
 #include "simulator/model/robot_file.h"
 #include "simulator/run/run_scenario.h"
 #include "validation/gait/gait_run.h"
-#include "validation/twin/recorded_run.h"
+#include "validation/identify/twin/recorded_run.h"
 
 namespace plumbline::validation {
 

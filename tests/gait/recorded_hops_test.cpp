@@ -10,11 +10,11 @@
 #include "simulator/trace/error.h"
 #include "tests/gait/mabel_hops.h"
 #include "tests/trace/temporary_folder.h"
-#include "validation/compare/compare.h"
-#include "validation/predict/estimate.h"
-#include "validation/predict/reach.h"
-#include "validation/predict/states_by_parts.h"
-#include "validation/trial/write_trial.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/predict/estimate.h"
+#include "validation/identify/predict/reach.h"
+#include "validation/identify/predict/states_by_parts.h"
+#include "validation/identify/trial/write_trial.h"
 
 namespace plumbline::validation {
 namespace {

@@ -13,8 +13,8 @@
 #include "simulator/trace/table.h"
 #include "tests/driver/rehearsal.h"
 #include "tests/trace/temporary_folder.h"
+#include "validation/identify/trial/trial.h"
 #include "validation/robot/simulated_robot.h"
-#include "validation/trial/trial.h"
 
 namespace plumbline::validation {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "controllers/driver/json.h"
 #include "validation/certify/requirements.h"
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 #include "work/workers.h"
 
 namespace plumbline::validation {

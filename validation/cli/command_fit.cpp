@@ -11,7 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/recipe_report.h"
-#include "validation/standard/result.h"
+#include "validation/identify/standard/result.h"
 
 namespace plumbline::cli {
 namespace {

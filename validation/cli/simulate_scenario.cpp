@@ -11,8 +11,8 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/gait/gait_run.h"
-#include "validation/trial/write_trial.h"
-#include "validation/twin/recorded_run.h"
+#include "validation/identify/trial/write_trial.h"
+#include "validation/identify/twin/recorded_run.h"
 
 namespace plumbline::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 
 namespace plumbline::validation {
 namespace {

@@ -8,7 +8,7 @@
 #include "simulator/run/run_scenario.h"
 #include "validation/gait/gait.h"
 #include "validation/gait/measure.h"
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 
 namespace plumbline::validation {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "simulator/sensing/differentiation.h"
-#include "validation/fit/fit.h"
+#include "validation/identify/fit/fit.h"
 #include "validation/recipes/estimators.h"
 #include "validation/recipes/methods.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "simulator/trace/error.h"
-#include "validation/diagnose/candidates.h"
-#include "validation/fit/free_parameters.h"
+#include "validation/identify/diagnose/candidates.h"
+#include "validation/identify/fit/free_parameters.h"
 
 namespace plumbline::validation {
 namespace {

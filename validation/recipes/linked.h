@@ -1,7 +1,7 @@
 // Models whose parameters are a recipe's unknowns.
 #pragma once
 
-#include "validation/predict/windows.h"
+#include "validation/identify/predict/windows.h"
 #include "validation/recipes/findings.h"
 #include "validation/recipes/recipe.h"
 

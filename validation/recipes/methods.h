@@ -1,7 +1,7 @@
 // The methods of a recipe's steps.
 #pragma once
 
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 #include "validation/recipes/findings.h"
 #include "validation/recipes/posture.h"
 #include "validation/recipes/recipe.h"

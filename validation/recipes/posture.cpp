@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {

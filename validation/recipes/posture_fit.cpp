@@ -3,8 +3,8 @@
 #include <cmath>
 #include <memory>
 
-#include "validation/diagnose/candidates.h"
-#include "validation/fit/fit.h"
+#include "validation/identify/diagnose/candidates.h"
+#include "validation/identify/fit/fit.h"
 #include "validation/recipes/information.h"
 #include "validation/recipes/linked.h"
 #include "validation/recipes/methods.h"

@@ -7,10 +7,10 @@
 #include "simulator/model/robot_file.h"
 #include "simulator/model/yaml_node.h"
 #include "simulator/trace/units.h"
-#include "validation/fit/free_parameters.h"
+#include "validation/identify/fit/free_parameters.h"
+#include "validation/identify/trial/trial_file.h"
 #include "validation/recipes/recipe.h"
 #include "validation/recipes/step_file.h"
-#include "validation/trial/trial_file.h"
 
 namespace plumbline::validation {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "simulator/trace/error.h"
-#include "validation/inverse_model/inverse_model.h"
+#include "validation/identify/inverse_model/inverse_model.h"
 #include "validation/recipes/twins.h"
 
 namespace plumbline::validation {

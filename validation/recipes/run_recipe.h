@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "validation/diagnose/screen.h"
+#include "validation/identify/diagnose/screen.h"
 #include "validation/recipes/methods.h"
 
 namespace plumbline::validation {

@@ -7,8 +7,8 @@
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
 #include "simulator/model/yaml_chain.h"
-#include "validation/trial/physical_number.h"
-#include "validation/trial/trial_file.h"
+#include "validation/identify/trial/physical_number.h"
+#include "validation/identify/trial/trial_file.h"
 
 namespace plumbline::validation {
 namespace {

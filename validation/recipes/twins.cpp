@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "validation/gait/gait_run.h"
+#include "validation/identify/twin/recorded_run.h"
+#include "validation/identify/twin/twin.h"
 #include "validation/recipes/linked.h"
-#include "validation/twin/recorded_run.h"
-#include "validation/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 #include "validation/recipes/findings.h"
 #include "validation/recipes/posture.h"
 #include "validation/recipes/recipe.h"

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/diagnose/candidates.h"
-#include "validation/fit/fit.h"
-#include "validation/predict/deviations.h"
-#include "validation/predict/states_by_parts.h"
+#include "validation/identify/diagnose/candidates.h"
+#include "validation/identify/fit/fit.h"
+#include "validation/identify/predict/deviations.h"
+#include "validation/identify/predict/states_by_parts.h"
 #include "validation/recipes/information.h"
 #include "validation/recipes/linked.h"
 #include "validation/recipes/methods.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/optimise/least_squares.h"
+#include "validation/identify/optimise/least_squares.h"
 #include "validation/running/constants.h"
 #include "validation/running/hybrid.h"
 

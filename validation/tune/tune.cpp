@@ -6,7 +6,7 @@
 #include "simulator/model/yaml_chain.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
-#include "validation/tune/cma_search.h"
+#include "validation/identify/optimise/cma_search.h"
 
 namespace plumbline::validation {
 namespace {
