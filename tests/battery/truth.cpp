@@ -1,7 +1,7 @@
 #include "tests/battery/truth.h"
 
 #include "tests/battery/foreign_laws.h"
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 #include "validation/identify/twin/recorded_run.h"
 #include "validation/identify/twin/twin.h"
 

@@ -15,10 +15,10 @@
 #include "tests/identify/trial/texts.h"
 #include "tests/model/robot_texts.h"
 #include "tests/model/test_laws.h"
+#include "validation/control/published/published.h"
 #include "validation/identify/predict/kept_results.h"
 #include "validation/identify/trial/trial.h"
 #include "validation/identify/twin/experiment.h"
-#include "validation/published/published.h"
 
 namespace plumbline::test {
 namespace {

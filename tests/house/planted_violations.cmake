@@ -51,7 +51,7 @@ expect(refused simulator/run/a.cpp "#include \"work/workers.h\"")
 expect(refused validation/a.cpp "#include SOME_HEADER")
 
 expect(accepted work/a.cpp "#include <mpi.h>")
-expect(accepted validation/certify/a.cpp "#include \"work/workers.h\"")
+expect(accepted validation/control/certify/a.cpp "#include \"work/workers.h\"")
 expect(accepted simulator/effects/a.h "#include <Eigen/Core>")
 expect(accepted simulator/effects/a.h "#include \"simulator/effects/law.h\"")
 expect(accepted simulator/trace/a.cpp "#include <udunits2.h>")

@@ -10,7 +10,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/published/validate.h"
+#include "validation/control/published/validate.h"
 #include "validation/running/published_running.h"
 
 namespace plumbline::cli {

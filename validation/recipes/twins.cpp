@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 #include "validation/identify/twin/recorded_run.h"
 #include "validation/identify/twin/twin.h"
 #include "validation/recipes/linked.h"

@@ -7,7 +7,7 @@
 #include "simulator/model/yaml_chain.h"
 #include "simulator/model/yaml_node.h"
 #include "simulator/run/scenario.h"
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 #include "validation/running/published_running.h"
 #include "validation/running/return_map.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 
 namespace plumbline::validation {
 

@@ -7,7 +7,7 @@
 
 #include "controllers/monopod/parameters.h"
 #include "simulator/model/model.h"
-#include "validation/published/validate.h"
+#include "validation/control/published/validate.h"
 #include "validation/running/design.h"
 
 namespace plumbline::validation {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 #include "validation/walking/rigid_gait.h"
 
 namespace plumbline::validation {
