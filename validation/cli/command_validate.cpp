@@ -11,7 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/control/published/validate.h"
-#include "validation/running/published_running.h"
+#include "validation/studies/running/published_running.h"
 
 namespace plumbline::cli {
 namespace {
