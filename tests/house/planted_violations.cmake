@@ -58,7 +58,7 @@ expect(refused validation/studies/recipes/a.cpp "#include \"validation/api/loadi
 expect(refused validation/report/a.cpp "#include \"validation/studies/recipes/recipe.h\"")
 expect(refused validation/report/a.cpp "#include \"validation/api/loading.h\"")
 expect(refused validation/batch/a.cpp "#include \"validation/cli/output.h\"")
-expect(refused validation/fit/a.cpp "#include <string>")
+expect(refused validation/nowhere/a.cpp "#include <string>")
 # Inside a wing.
 expect(refused validation/identify/predict/a.cpp "#include \"validation/identify/diagnose/diagnose.h\"")
 expect(refused validation/identify/nowhere/a.cpp "#include \"validation/identify/trial/trial.h\"")
