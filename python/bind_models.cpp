@@ -5,7 +5,7 @@
 #include "validation/api/adding.h"
 #include "validation/api/describing.h"
 #include "validation/api/effects_json.h"
-#include "validation/fit/free_parameters.h"
+#include "validation/identify/fit/free_parameters.h"
 
 namespace plumbline::python {
 namespace {

@@ -5,7 +5,7 @@
 #include "python/work.h"
 #include "simulator/model/kinds.h"
 #include "simulator/trace/error.h"
-#include "validation/replay/replay.h"
+#include "validation/identify/replay/replay.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::python {

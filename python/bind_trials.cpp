@@ -6,8 +6,8 @@
 #include "validation/api/describing.h"
 #include "validation/api/trial_arrays.h"
 #include "validation/api/twins.h"
-#include "validation/trial/trial_file.h"
-#include "validation/trial/write_trial.h"
+#include "validation/identify/trial/trial_file.h"
+#include "validation/identify/trial/write_trial.h"
 
 namespace plumbline::python {
 namespace {

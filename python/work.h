@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "validation/diagnose/screen.h"
+#include "validation/identify/diagnose/screen.h"
 
 namespace plumbline::python {
 

@@ -9,8 +9,8 @@
 #include "simulator/model/robot_file.h"
 #include "validation/api/diagnosing.h"
 #include "validation/api/fitting.h"
-#include "validation/compare/compare.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::api {
 namespace {

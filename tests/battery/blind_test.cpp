@@ -14,8 +14,8 @@
 #include "simulator/model/robot_file.h"
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/recorder.h"
-#include "validation/diagnose/diagnose.h"
-#include "validation/fit/fit.h"
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/fit/fit.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::battery::worlds {

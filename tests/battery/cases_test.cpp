@@ -14,7 +14,7 @@
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
 #include "tests/battery/foreign_laws.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::battery {
 namespace {

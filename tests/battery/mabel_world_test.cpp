@@ -13,7 +13,7 @@
 #include "simulator/run/run_scenario.h"
 #include "tests/battery/worlds/hops.h"
 #include "tests/battery/worlds/play.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::battery::worlds {
 namespace {

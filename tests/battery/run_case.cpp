@@ -16,9 +16,9 @@
 #include "tests/battery/truth.h"
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/play.h"
-#include "validation/compare/compare.h"
-#include "validation/trial/write_trial.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/trial/write_trial.h"
+#include "validation/identify/twin/twin.h"
 #include "work/workers.h"
 
 namespace plumbline::battery {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "tests/battery/cases.h"
-#include "validation/diagnose/diagnose.h"
-#include "validation/predict/kept_results.h"
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/predict/kept_results.h"
 
 namespace plumbline::battery {
 

@@ -1,9 +1,9 @@
 #include "tests/battery/truth.h"
 
 #include "tests/battery/foreign_laws.h"
-#include "validation/gait/gait_run.h"
-#include "validation/twin/recorded_run.h"
-#include "validation/twin/twin.h"
+#include "validation/control/gait/gait_run.h"
+#include "validation/identify/twin/recorded_run.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::battery {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tests/battery/draw.h"
 #include "tests/battery/run_case.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::battery {
 

@@ -11,7 +11,7 @@
 #include "tests/battery/worlds/recorder.h"
 #include "tests/battery/worlds/visibility.h"
 #include "tests/oracles/leg_bench_lagrangian.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::battery::worlds {
 namespace {

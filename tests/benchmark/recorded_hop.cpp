@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/gait/mabel_hops.h"
+#include "tests/control/gait/mabel_hops.h"
 
 namespace plumbline::benchmarks {
 namespace {

@@ -1,5 +1,5 @@
 // What `plumbline fit` says of its numbers: intervals and doubts.
-#include "validation/fit/fit.h"
+#include "validation/identify/fit/fit.h"
 
 #include <gmock/gmock.h>
 

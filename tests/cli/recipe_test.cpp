@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/robot_folder.h"
-#include "tests/recipes/pendulum_recipe.h"
+#include "tests/studies/recipes/pendulum_recipe.h"
 
 namespace plumbline::test {
 namespace {

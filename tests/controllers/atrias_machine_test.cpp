@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "controllers/host/loaded_controller.h"
-#include "validation/gait/gait_run.h"
+#include "validation/control/gait/gait_run.h"
 
 namespace plumbline::validation {
 namespace {

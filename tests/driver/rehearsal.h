@@ -10,9 +10,9 @@
 #include "controllers/driver/signature.h"
 #include "simulator/run/scenario.h"
 #include "tests/driver/processes.h"
-#include "validation/certify/drive_part.h"
-#include "validation/certify/lasting.h"
-#include "validation/certify/requirements.h"
+#include "validation/control/certify/drive_part.h"
+#include "validation/control/certify/lasting.h"
+#include "validation/control/certify/requirements.h"
 
 namespace plumbline::driver {
 

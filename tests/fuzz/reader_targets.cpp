@@ -12,13 +12,13 @@
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
 #include "simulator/trace/units.h"
+#include "tests/identify/trial/texts.h"
 #include "tests/model/robot_texts.h"
 #include "tests/model/test_laws.h"
-#include "tests/trial/texts.h"
-#include "validation/predict/kept_results.h"
-#include "validation/published/published.h"
-#include "validation/trial/trial.h"
-#include "validation/twin/experiment.h"
+#include "validation/control/published/published.h"
+#include "validation/identify/predict/kept_results.h"
+#include "validation/identify/trial/trial.h"
+#include "validation/identify/twin/experiment.h"
 
 namespace plumbline::test {
 namespace {

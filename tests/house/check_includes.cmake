@@ -4,8 +4,10 @@
 cmake_minimum_required(VERSION 3.25)
 
 # What each part may include besides itself. Parts not named here may not exist.
+# scripts/draw_folders.py draws the same folders from their real includes.
 set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
-    simulator/run simulator/render contact controllers work validation python tests)
+    simulator/run simulator/render contact controllers work validation/identify validation/control validation/studies
+    validation/report validation/api validation/batch validation/cli python tests)
 set(may_work)
 set(may_simulator/effects)
 set(may_simulator/trace)
@@ -17,10 +19,22 @@ set(may_simulator/model simulator/rigid simulator/effects contact simulator/trac
 set(may_simulator/run simulator/integrate simulator/model simulator/rigid simulator/sensing simulator/effects contact simulator/trace controllers)
 set(may_simulator/render simulator/model simulator/trace)
 set(may_controllers)
-set(may_validation simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
-    simulator/run simulator/render contact controllers work)
-set(may_python ${may_validation} validation)
+# The wings of validation, from below. What belongs to one paper is seen by the command line only: it can be removed.
+set(may_validation/identify simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model
+    simulator/integrate simulator/run simulator/render contact controllers work)
+set(may_validation/control ${may_validation/identify} validation/identify)
+set(may_validation/studies ${may_validation/control} validation/control)
+set(may_validation/report ${may_validation/control} validation/control)
+set(may_validation/api ${may_validation/report} validation/report)
+set(may_validation/batch ${may_validation/api} validation/api)
+set(may_validation/cli ${may_validation/batch} validation/batch validation/studies)
+set(may_python ${may_validation/batch} validation/batch)
 set(may_tests ${parts})
+
+# Inside a wing a folder includes only folders that stand before it.
+set(order_validation/identify trial inverse_model optimise predict closed_loop compare twin diagnose suggest replay fit standard)
+set(order_validation/control gait published tune robot certify)
+set(order_validation/studies spring_mass aslip running walking step_down recipes)
 
 # External headers that only some parts may see.
 set(guarded simbody sundials vtk assimp mpi)
@@ -70,6 +84,28 @@ function(check_own_include file line part included)
   set(violations ${violations} PARENT_SCOPE)
 endfunction()
 
+# The folder's place in its wing's order; -1: not in it. Empty: the path is in no wing.
+function(place_in_wing part path result)
+  set(${result} "" PARENT_SCOPE)
+  if(DEFINED order_${part} AND path MATCHES "^${part}/([^/]+)/")
+    list(FIND order_${part} "${CMAKE_MATCH_1}" place)
+    set(${result} ${place} PARENT_SCOPE)
+  endif()
+endfunction()
+
+function(check_inside_wing file line part included)
+  place_in_wing("${part}" "${file}" own)
+  place_in_wing("${part}" "${included}" other)
+  if(own STREQUAL "" OR other STREQUAL "")
+    return()
+  endif()
+  if(own EQUAL -1 OR other EQUAL -1 OR other GREATER own)
+    list(JOIN order_${part} ", " order)
+    complain(${file} ${line} "includes \"${included}\", expected only folders of ${part} before its own: ${order}")
+    set(violations ${violations} PARENT_SCOPE)
+  endif()
+endfunction()
+
 function(check_external_include file line part included)
   foreach(library IN LISTS guarded)
     if(included MATCHES "${header_${library}}" AND NOT part IN_LIST seen_${library})
@@ -108,6 +144,7 @@ function(check_file file)
       part_of("${included}" target)
       if(target OR directive MATCHES "\"")
         check_own_include(${file} ${line} ${part} "${included}")
+        check_inside_wing(${file} ${line} ${part} "${included}")
       endif()
       if(NOT target)
         check_external_include(${file} ${line} ${part} "${included}")

@@ -7,7 +7,7 @@
 
 #include "simulator/model/robot_file.h"
 #include "simulator/run/commanded_run.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::limits {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "tests/limits/bench.h"
-#include "validation/predict/estimate.h"
+#include "validation/identify/predict/estimate.h"
 
 namespace plumbline::limits {
 namespace {

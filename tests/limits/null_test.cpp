@@ -70,7 +70,8 @@ TEST(Null, EveryEffectAtEveryPlaceLeavesTheBareModel) {
   const effects::Catalogue catalogue = effects::Catalogue::all();
   for (const auto& law : catalogue.laws()) {
     if (law->sits_at(effects::Place::base) || law->sits_at(effects::Place::contact_switch)) {
-      continue;  // the bench has none: tests/oracles/boom_test.cpp, tests/predict/contact_timing_test.cpp
+      continue;  // the bench has none: tests/oracles/boom_test.cpp,
+                 // tests/identify/predict/contact_timing_test.cpp
     }
     int places = 0;
     for (const effects::Place place : law->declaration().places) {

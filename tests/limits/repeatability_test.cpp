@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/limits/bench.h"
-#include "validation/predict/estimate.h"
+#include "validation/identify/predict/estimate.h"
 
 namespace plumbline::limits {
 namespace {

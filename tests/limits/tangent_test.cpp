@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/limits/bench.h"
-#include "validation/predict/windows.h"
+#include "validation/identify/predict/windows.h"
 
 namespace plumbline::limits {
 namespace {

@@ -1,8 +1,8 @@
 // The ladder of a page without a diagnosis.
 #include <gtest/gtest.h>
 
-#include "tests/predict/hopper.h"
-#include "validation/compare/compare.h"
+#include "tests/identify/predict/hopper.h"
+#include "validation/identify/compare/compare.h"
 #include "validation/report/report.h"
 
 namespace plumbline::validation {

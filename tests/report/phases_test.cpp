@@ -1,5 +1,5 @@
 // Phases share out all samples of a trial, by rules that a person can check.
-#include "validation/compare/phases.h"
+#include "validation/identify/compare/phases.h"
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/predict/hopper.h"
+#include "tests/identify/predict/hopper.h"
 
 namespace plumbline::validation {
 namespace {

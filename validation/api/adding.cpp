@@ -5,10 +5,10 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
-#include "validation/fit/scales.h"
+#include "validation/identify/fit/scales.h"
+#include "validation/identify/twin/twin.h"
 #include "validation/report/json_number.h"
 #include "validation/report/model_json.h"
-#include "validation/twin/twin.h"
 
 namespace plumbline::api {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/fit/free_parameters.h"
+#include "validation/identify/fit/free_parameters.h"
 
 namespace plumbline::api {
 namespace {

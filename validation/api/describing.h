@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/model/model.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::api {
 

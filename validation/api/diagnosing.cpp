@@ -9,8 +9,8 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/diagnose/finish.h"
-#include "validation/diagnose/found_values.h"
+#include "validation/identify/diagnose/finish.h"
+#include "validation/identify/diagnose/found_values.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {

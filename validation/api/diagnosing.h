@@ -7,9 +7,9 @@
 
 #include "validation/api/from_torques.h"
 #include "validation/api/loading.h"
-#include "validation/diagnose/diagnose.h"
-#include "validation/diagnose/unexplained.h"
-#include "validation/standard/standard_windows.h"
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/diagnose/unexplained.h"
+#include "validation/identify/standard/standard_windows.h"
 
 namespace plumbline::api {
 

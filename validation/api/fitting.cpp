@@ -4,7 +4,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/fit/whole_fit.h"
+#include "validation/identify/fit/whole_fit.h"
 #include "validation/report/json_number.h"
 
 namespace plumbline::api {

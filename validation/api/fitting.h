@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/api/loading.h"
-#include "validation/fit/fit.h"
+#include "validation/identify/fit/fit.h"
 
 namespace plumbline::api {
 

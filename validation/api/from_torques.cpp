@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "simulator/trace/error.h"
-#include "validation/compare/compare.h"
-#include "validation/diagnose/finish.h"
-#include "validation/diagnose/found_values.h"
-#include "validation/diagnose/rescore.h"
-#include "validation/predict/lost_windows.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/diagnose/finish.h"
+#include "validation/identify/diagnose/found_values.h"
+#include "validation/identify/diagnose/rescore.h"
+#include "validation/identify/predict/lost_windows.h"
 
 namespace plumbline::api {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "validation/diagnose/diagnose.h"
-#include "validation/standard/standard_fit.h"
-#include "validation/standard/torque_stage.h"
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/standard/standard_fit.h"
+#include "validation/identify/standard/torque_stage.h"
 
 namespace plumbline::api {
 

@@ -4,7 +4,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/compare/rung_name.h"
+#include "validation/identify/compare/rung_name.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "validation/api/loading.h"
-#include "validation/closed_loop/reference.h"
-#include "validation/compare/compare.h"
-#include "validation/diagnose/screen.h"
+#include "validation/identify/closed_loop/reference.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/diagnose/screen.h"
 #include "validation/report/whole_trials.h"
 
 namespace plumbline::api {

@@ -5,8 +5,8 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
-#include "validation/inverse_model/inverse_model.h"
-#include "validation/predict/kept_results.h"
+#include "validation/identify/inverse_model/inverse_model.h"
+#include "validation/identify/predict/kept_results.h"
 #include "validation/report/repeat_json.h"
 
 namespace plumbline::api {

@@ -7,7 +7,7 @@
 
 #include "simulator/effects/catalogue.h"
 #include "simulator/model/model.h"
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 #include "work/workers.h"
 
 namespace plumbline::api {

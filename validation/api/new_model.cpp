@@ -13,8 +13,8 @@
 #include "simulator/trace/table.h"
 #include "simulator/trace/units.h"
 #include "validation/api/new_model_text.h"
-#include "validation/inverse_model/inverse_model.h"
-#include "validation/trial/new_folder.h"
+#include "validation/identify/inverse_model/inverse_model.h"
+#include "validation/identify/trial/new_folder.h"
 
 namespace plumbline::api {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/trial/log_look.h"
+#include "validation/identify/trial/log_look.h"
 
 namespace plumbline::api {
 

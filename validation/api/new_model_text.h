@@ -6,7 +6,7 @@
 
 #include "simulator/model/model.h"
 #include "validation/api/new_model_columns.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::api {
 

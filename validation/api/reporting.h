@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/api/loading.h"
-#include "validation/diagnose/diagnose.h"
+#include "validation/identify/diagnose/diagnose.h"
 
 namespace plumbline::api {
 

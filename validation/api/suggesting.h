@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "validation/suggest/suggest.h"
+#include "validation/identify/suggest/suggest.h"
 
 namespace plumbline::api {
 

@@ -7,9 +7,9 @@
 #include "simulator/model/kinds.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
-#include "validation/trial/physical_number.h"
-#include "validation/trial/sampling.h"
-#include "validation/trial/trial_data.h"
+#include "validation/identify/trial/physical_number.h"
+#include "validation/identify/trial/sampling.h"
+#include "validation/identify/trial/trial_data.h"
 
 namespace plumbline::api {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/trace/table.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::api {
 
@@ -35,7 +35,7 @@ struct TrialArrays {
 /// Throws InputError (one line: trial, channel, found, expected) on unknown names, wrong units, arrays of
 /// different length, NaN, times that do not rise, fewer than 20 samples, a contact switch that is neither 0
 /// nor 1, events outside of the recording, and when no sensor was measured. Times that are not even (within
-/// 1 %) are brought onto even samples, as those of a file are (validation/trial/sampling.h).
+/// 1 %) are brought onto even samples, as those of a file are (validation/identify/trial/sampling.h).
 validation::Trial trial_from(const TrialArrays& arrays, const model::Model& model);
 
 }  // namespace plumbline::api

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/model/model.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::api {
 

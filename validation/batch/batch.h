@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "validation/batch/jobs.h"
-#include "validation/diagnose/screen.h"
-#include "validation/predict/problem.h"
+#include "validation/identify/diagnose/screen.h"
+#include "validation/identify/predict/problem.h"
 #include "work/workers.h"
 
 namespace plumbline::batch {

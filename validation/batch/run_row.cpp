@@ -9,8 +9,8 @@
 #include "validation/api/fitting.h"
 #include "validation/api/loading.h"
 #include "validation/batch/batch.h"
-#include "validation/compare/compare.h"
-#include "validation/predict/kept_results.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/predict/kept_results.h"
 #include "validation/report/repeat_json.h"
 #include "validation/report/result_json.h"
 

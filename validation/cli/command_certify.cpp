@@ -5,12 +5,12 @@
 #include "controllers/driver/signature.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
-#include "validation/certify/certify.h"
 #include "validation/cli/driving_commands.h"
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/ranks.h"
+#include "validation/control/certify/certify.h"
 
 namespace plumbline::cli {
 namespace {

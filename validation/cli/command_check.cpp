@@ -13,7 +13,7 @@
 #include "validation/cli/describe_meshes.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/inverse_model/inverse_model.h"
+#include "validation/identify/inverse_model/inverse_model.h"
 
 namespace plumbline::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
 #include "validation/cli/ranks.h"
-#include "validation/diagnose/own_parameters.h"
-#include "validation/predict/kept_results.h"
+#include "validation/identify/diagnose/own_parameters.h"
+#include "validation/identify/predict/kept_results.h"
 #include "validation/report/sentences.h"
 
 namespace plumbline::cli {

@@ -11,7 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/recipe_report.h"
-#include "validation/standard/result.h"
+#include "validation/identify/standard/result.h"
 
 namespace plumbline::cli {
 namespace {
@@ -303,7 +303,7 @@ void add_fit(CLI::App& app, Outcome& outcome) {
   command->footer(
       "Example:\n  plumbline fit demo/siso_mLA demo/mimo --free 'viscous@*:damping' -o fitted.yaml\n"
       "  plumbline fit demo/mimo --standard -o identified.yaml\n"
-      "  plumbline fit --recipe validation/recipes/mabel --seed 7");
+      "  plumbline fit --recipe validation/studies/recipes/mabel --seed 7");
   command->callback([options, command, &outcome] {
     check_usage(*command, *options);
     if (options->standard) {

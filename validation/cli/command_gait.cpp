@@ -11,7 +11,7 @@
 #include "validation/cli/command_walking.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/output.h"
-#include "validation/walking/rigid_gait.h"
+#include "validation/studies/walking/rigid_gait.h"
 
 namespace plumbline::cli {
 namespace {

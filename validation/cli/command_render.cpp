@@ -20,7 +20,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/platforms.h"
-#include "validation/replay/trial_motion.h"
+#include "validation/identify/replay/trial_motion.h"
 
 namespace plumbline::cli {
 namespace {

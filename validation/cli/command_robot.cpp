@@ -14,8 +14,8 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/robot/simulated_robot.h"
-#include "validation/twin/twin.h"
+#include "validation/control/robot/simulated_robot.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::cli {
 namespace {

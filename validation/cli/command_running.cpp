@@ -8,8 +8,8 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/running/ladder.h"
-#include "validation/running/running_file.h"
+#include "validation/studies/running/ladder.h"
+#include "validation/studies/running/running_file.h"
 
 namespace plumbline::cli {
 namespace {

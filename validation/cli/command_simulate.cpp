@@ -10,8 +10,8 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/simulate_scenario.h"
-#include "validation/inverse_model/inverse_model.h"
-#include "validation/replay/replay.h"
+#include "validation/identify/inverse_model/inverse_model.h"
+#include "validation/identify/replay/replay.h"
 
 namespace plumbline::cli {
 namespace {

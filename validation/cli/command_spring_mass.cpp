@@ -13,9 +13,9 @@
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/spring_mass/drawing.h"
-#include "validation/spring_mass/sensitivity.h"
-#include "validation/spring_mass/theory_report.h"
+#include "validation/studies/spring_mass/drawing.h"
+#include "validation/studies/spring_mass/sensitivity.h"
+#include "validation/studies/spring_mass/theory_report.h"
 
 namespace plumbline::cli {
 namespace {

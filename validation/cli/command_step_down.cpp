@@ -11,7 +11,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/step_down/step_down.h"
+#include "validation/studies/step_down/step_down.h"
 
 namespace plumbline::cli {
 namespace {

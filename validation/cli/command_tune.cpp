@@ -8,7 +8,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/tune/tune.h"
+#include "validation/control/tune/tune.h"
 
 namespace plumbline::cli {
 namespace {

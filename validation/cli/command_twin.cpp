@@ -10,7 +10,7 @@
 #include "validation/cli/files.h"
 #include "validation/cli/inputs.h"
 #include "validation/cli/output.h"
-#include "validation/trial/write_trial.h"
+#include "validation/identify/trial/write_trial.h"
 
 namespace plumbline::cli {
 namespace {

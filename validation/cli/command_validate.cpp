@@ -10,8 +10,8 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/published/validate.h"
-#include "validation/running/published_running.h"
+#include "validation/control/published/validate.h"
+#include "validation/studies/running/published_running.h"
 
 namespace plumbline::cli {
 namespace {

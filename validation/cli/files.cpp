@@ -5,7 +5,7 @@
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
-#include "validation/trial/new_folder.h"
+#include "validation/identify/trial/new_folder.h"
 
 namespace plumbline::cli {
 namespace {

@@ -1,7 +1,7 @@
 // Ctrl-C: the first asks the work to end cleanly and keep what is finished, the second ends at once.
 #pragma once
 
-#include "validation/predict/problem.h"
+#include "validation/identify/predict/problem.h"
 
 namespace plumbline::cli {
 

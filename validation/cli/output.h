@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/diagnose/screen.h"
+#include "validation/identify/diagnose/screen.h"
 
 namespace plumbline::cli {
 

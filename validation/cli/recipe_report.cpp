@@ -6,7 +6,7 @@
 
 #include "validation/cli/files.h"
 #include "validation/cli/output.h"
-#include "validation/recipes/untold.h"
+#include "validation/studies/recipes/untold.h"
 
 namespace plumbline::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "validation/recipes/run_recipe.h"
+#include "validation/studies/recipes/run_recipe.h"
 
 namespace plumbline::cli {
 

@@ -10,9 +10,9 @@
 #include "validation/cli/files.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
-#include "validation/gait/gait_run.h"
-#include "validation/trial/write_trial.h"
-#include "validation/twin/recorded_run.h"
+#include "validation/control/gait/gait_run.h"
+#include "validation/identify/trial/write_trial.h"
+#include "validation/identify/twin/recorded_run.h"
 
 namespace plumbline::cli {
 namespace {

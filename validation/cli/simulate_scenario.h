@@ -8,7 +8,7 @@
 
 #include "simulator/run/run_scenario.h"
 #include "validation/cli/platforms.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::cli {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "validation/fit/fit.h"
-#include "validation/predict/deviations.h"
+#include "validation/identify/fit/fit.h"
+#include "validation/identify/predict/deviations.h"
 #include "validation/report/json_number.h"
 
 namespace plumbline::validation {

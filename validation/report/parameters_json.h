@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "validation/diagnose/screen.h"
-#include "validation/predict/deviations.h"
+#include "validation/identify/diagnose/screen.h"
+#include "validation/identify/predict/deviations.h"
 
 namespace plumbline::validation {
 

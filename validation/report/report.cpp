@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "simulator/model/robot_file.h"
-#include "validation/compare/rung_name.h"
-#include "validation/predict/zero_errors.h"
+#include "validation/identify/compare/rung_name.h"
+#include "validation/identify/predict/zero_errors.h"
 #include "validation/report/encode.h"
 #include "validation/report/model_json.h"
 #include "validation/report/parameters_json.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/diagnose/diagnose.h"
+#include "validation/identify/diagnose/diagnose.h"
 #include "validation/report/repeat_json.h"
 #include "validation/report/trial_json.h"
 

@@ -1,6 +1,6 @@
 #include "validation/report/result_json.h"
 
-#include "validation/diagnose/own_parameters.h"
+#include "validation/identify/diagnose/own_parameters.h"
 #include "validation/report/json_number.h"
 #include "validation/report/sentences.h"
 

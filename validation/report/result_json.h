@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "validation/compare/compare.h"
-#include "validation/compare/horizon.h"
-#include "validation/diagnose/diagnose.h"
-#include "validation/diagnose/unexplained.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/compare/horizon.h"
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/diagnose/unexplained.h"
 
 namespace plumbline::validation {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "validation/diagnose/own_parameters.h"
+#include "validation/identify/diagnose/own_parameters.h"
 
 namespace plumbline::validation {
 namespace {
@@ -224,7 +224,7 @@ std::string test_sentence(const Diagnosis& diagnosis) {
 }
 
 /// Where the held-out error at the train trials' best values is much larger than the foretold one, which
-/// decides (validation/predict/foretell.h): a caution with both; else empty.
+/// decides (validation/identify/predict/foretell.h): a caution with both; else empty.
 std::string open_values_sentence(const Diagnosis& diagnosis) {
   constexpr double kMuch = 1.1;
   const Rung& last = diagnosis.ladder.back();

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/diagnose/diagnose.h"
+#include "validation/identify/diagnose/diagnose.h"
 
 namespace plumbline::validation {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "validation/compare/phase_errors.h"
+#include "validation/identify/compare/phase_errors.h"
 
 namespace plumbline::validation {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "validation/diagnose/screen.h"
+#include "validation/identify/diagnose/screen.h"
 #include "validation/report/thin.h"
 
 namespace plumbline::validation {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "validation/compare/phases.h"
+#include "validation/identify/compare/phases.h"
 #include "validation/report/encode.h"
 #include "validation/report/spectrum.h"
 #include "validation/report/traces.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "validation/compare/compare.h"
-#include "validation/diagnose/diagnose.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/diagnose/diagnose.h"
 #include "validation/report/thin.h"
 
 namespace plumbline::validation {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "validation/closed_loop/closed_loop.h"
-#include "validation/closed_loop/reference.h"
-#include "validation/inverse_model/inverse_model.h"
-#include "validation/predict/problem.h"
+#include "validation/identify/closed_loop/closed_loop.h"
+#include "validation/identify/closed_loop/reference.h"
+#include "validation/identify/inverse_model/inverse_model.h"
+#include "validation/identify/predict/problem.h"
 
 namespace plumbline::validation {
 

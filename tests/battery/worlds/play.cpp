@@ -12,7 +12,7 @@
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/recorder.h"
 #include "tests/battery/worlds/visibility.h"
-#include "validation/twin/experiment.h"
+#include "validation/identify/twin/experiment.h"
 
 namespace plumbline::battery::worlds {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "tests/battery/draw.h"
 #include "tests/battery/worlds/hidden.h"
-#include "validation/trial/trial.h"
+#include "validation/identify/trial/trial.h"
 
 namespace plumbline::battery::worlds {
 

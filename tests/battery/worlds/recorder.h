@@ -4,7 +4,7 @@
 #include <random>
 
 #include "tests/battery/worlds/machine.h"
-#include "validation/twin/experiment.h"
+#include "validation/identify/twin/experiment.h"
 
 namespace plumbline::battery::worlds {
 

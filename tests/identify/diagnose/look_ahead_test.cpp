@@ -1,0 +1,110 @@
+// Two hidden effects on twins of MABEL's leg on the bench, of which no single one is a good guess.
+#include "validation/identify/diagnose/look_ahead.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tests/identify/diagnose/bench.h"
+#include "validation/identify/diagnose/tangents.h"
+
+namespace plumbline::validation {
+namespace {
+
+using testing::Contains;
+using testing::Not;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+
+TEST(LookAhead, PutsTheTwoHiddenEffectsFirst) {
+  const model::Model bare = bench();
+  const Data data = bench_twins({"command_delay@mLS:delay=0.0014", "quadratic@mLS:drag=1.7e-5"}).thinned(8);
+  const effects::Catalogue catalogue = some_laws({"command_delay", "quadratic", "viscous", "coulomb"});
+  const Policy policy;
+  const Tried tried = try_candidates(as_given(bare, data), catalogue, {}, data, policy, silent);
+  ASSERT_FALSE(tried.refits.empty());
+  EXPECT_GT(tried.refits.front().estimate.scores.held_out, 2.0);  // one alone is not enough
+  const std::vector<Pair> pairs = look_ahead(tried, catalogue, data, policy, silent);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_THAT((std::vector<std::string>{pairs[0].first.label(), pairs[0].second.label()}),
+              UnorderedElementsAre("command_delay@mLS", "quadratic@mLS"));
+  EXPECT_LT(pairs[0].refit.estimate.scores.held_out, 1.1);
+  EXPECT_EQ(pairs[0].refit.added.size(), 2U);
+  EXPECT_EQ(pairs[0].refit.own, 2);
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    EXPECT_GE(pairs[i].refit.square(), pairs[i - 1].refit.square());
+  }
+  EXPECT_TRUE(halves_of(tried, pairs, data, policy, silent).empty());  // neither is enough
+}
+
+TEST(LookAhead, FollowsOnlyWhatExplainsSomethingAlone) {
+  const Data data = bench_twins({"quadratic@mLS:drag=1.7e-5", "command_delay@mLA:delay=0.0014"}).thinned(8);
+  const effects::Catalogue catalogue = some_laws({"quadratic", "torque_bias"});
+  const Tried tried = try_candidates(as_given(bench(), data), catalogue, {}, data, {}, silent);
+  ASSERT_GE(tried.refits.size(), 3U);
+  std::set<std::string> followed;
+  look_ahead(tried, catalogue, data, {}, [&](const std::string& what, double /*fraction*/) {
+    if (what.rfind("with ", 0) == 0) {
+      followed.insert(what.substr(5, what.find(':') - 5));
+    }
+  });
+  EXPECT_THAT(followed, Contains("quadratic@mLS"));
+  EXPECT_THAT(followed, Not(Contains(StartsWith("torque_bias"))));
+}
+
+TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
+  const Data data = bench_twins({"coulomb@mLS:level=0.003"}).thinned(8);
+  const Policy policy;
+  const Tried tried =
+      try_candidates(as_given(bench(), data), some_laws({"quadratic", "coulomb"}), {}, data, policy, silent);
+  const std::vector<Pair> pairs =
+      look_ahead(tried, some_laws({"quadratic", "coulomb"}), data, policy, silent);
+  const std::vector<Refit> halves = halves_of(tried, pairs, data, policy, silent);
+  ASSERT_EQ(halves.size(), 1U);
+  const Refit& alone = halves.front();
+  EXPECT_EQ(tried.candidates[static_cast<std::size_t>(alone.candidate)].label(), "coulomb@mLS");
+  EXPECT_EQ(alone.own, 1);
+  EXPECT_NEAR(alone.estimate.theta[0], 0.003, 3e-4);
+  EXPECT_LT(alone.estimate.scores.held_out, 1.1);
+}
+
+TEST(Tangents, PromiseMostForThePairThatIsHidden) {
+  const model::Model bare = bench();
+  const Data data =
+      bench_twins({"hardening@leg_angle:cubic_stiffness=3", "coulomb@mLS:level=0.003"}).thinned(8);
+  const Stage stage = as_given(bare, data);
+  std::vector<Candidate> candidates;
+  {
+    PredictorPool pool(bare, data);
+    candidates = list_candidates(
+        pool, some_laws({"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"}), {},
+        stage.estimate);
+  }
+  std::vector<Hypothesis> starts;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    for (const effects::Values& start : candidates[c].law->starts(candidates[c].scales)) {
+      Hypothesis hypothesis;
+      hypothesis.candidate = static_cast<int>(c);
+      hypothesis.start = start;
+      starts.push_back(hypothesis);
+    }
+  }
+  const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(8);
+  ASSERT_EQ(pairs.size(), 8U);
+  const auto label = [&](const Hypothesis& h) {
+    return candidates[static_cast<std::size_t>(h.candidate)].label();
+  };
+  EXPECT_THAT((std::vector<std::string>{label(pairs[0].first), label(pairs[0].second)}),
+              UnorderedElementsAre("hardening@leg_angle", "coulomb@mLS"));
+  EXPECT_LT(pairs[0].promised(), 0.5 * pairs[2].promised());
+  std::set<std::set<std::string>> different;
+  for (const PairHypothesis& pair : pairs) {
+    different.insert({label(pair.first), label(pair.second)});
+  }
+  EXPECT_EQ(different.size(), pairs.size());  // whatever the starts
+}
+
+}  // namespace
+}  // namespace plumbline::validation

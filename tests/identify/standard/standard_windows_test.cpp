@@ -1,0 +1,54 @@
+#include "validation/identify/standard/standard_windows.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/identify/standard/double_pendulum.h"
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/diagnose/candidates.h"
+
+namespace plumbline::validation {
+namespace {
+
+using pendulums::Truth;
+
+double value_of(const WindowsFit& fit, const std::string& label) {
+  for (std::size_t p = 0; p < fit.stage.parameters.size(); ++p) {
+    if (fit.stage.parameters[p].label == label) {
+      return fit.stage.estimate.theta[static_cast<Eigen::Index>(p)];
+    }
+  }
+  ADD_FAILURE() << "no value " << label;
+  return 0.0;
+}
+
+// Friction at the elbow and a heavier link, torques from Lagrange's equations by hand: all values at once,
+// without any torque being differentiated.
+TEST(StandardWindows, ExplainTwoErrorsAtOnce) {
+  Truth truth;
+  truth.viscous = 0.05;
+  truth.lower_mass = 0.7;
+  const Data data = pendulums::data(truth);
+  const std::optional<WindowsFit> fit =
+      standard_by_windows(pendulums::stated(), Freed::all, nullptr, data, 12, pendulums::silent);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(value_of(*fit, "viscous@elbow_motor:damping"), truth.viscous, 0.1 * truth.viscous);
+  const Scores before = compare(pendulums::stated(), data).scores;
+  EXPECT_LT(fit->scores.train, 0.05 * before.train);
+  EXPECT_LT(fit->scores.held_out, 0.1 * before.held_out);
+}
+
+// What it says of its model is what `compare` says of it.
+TEST(StandardWindows, ReportWhatCompareFinds) {
+  Truth truth;
+  truth.viscous = 0.03;
+  const Data data = pendulums::data(truth);
+  const std::optional<WindowsFit> fit =
+      standard_by_windows(pendulums::stated(), Freed::all, nullptr, data, 8, pendulums::silent);
+  ASSERT_TRUE(fit);
+  const Scores again = compare(fitted_model(fit->stage), data).scores;
+  EXPECT_NEAR(fit->scores.train, again.train, 0.01 * again.train);
+  EXPECT_NEAR(fit->scores.held_out, again.held_out, 0.01 * again.held_out);
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,62 @@
+#include "validation/identify/standard/torque_stage.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/identify/standard/double_pendulum.h"
+
+namespace plumbline::validation {
+namespace {
+
+using pendulums::Truth;
+
+std::string names_of(const TorqueStage& stage) {
+  std::string names;
+  for (const TorqueFinding& one : stage.named) {
+    names += one.label() + " ";
+  }
+  return names;
+}
+
+TorqueStage stage_of(const Truth& truth) {
+  constexpr double kCutoff = 20.0;  // Hz
+  return torque_stage(pendulums::stated(), effects::Catalogue::all(), pendulums::data(truth), kCutoff,
+                      Policy{}, pendulums::silent);
+}
+
+TEST(TorqueStage, NamesAPayloadWithItsMassAndPlace) {
+  Truth truth;
+  truth.payload = 0.4;
+  truth.x = 0.06;
+  truth.z = -0.35;
+  const TorqueStage stage = stage_of(truth);
+  ASSERT_EQ(stage.named.size(), 1U) << names_of(stage);
+  EXPECT_EQ(stage.named.front().label(), "payload@lower");
+  const std::vector<FreeValue>& values = stage.named.front().free.values;
+  std::map<std::string, double> found;
+  for (const FreeValue& value : values) {
+    found[value.label] = value.value;
+  }
+  EXPECT_NEAR(found["payload@lower:mass"], truth.payload, 0.05 * truth.payload);
+  EXPECT_NEAR(found["payload@lower:x"], truth.x, 0.01);
+  EXPECT_NEAR(found["payload@lower:z"], truth.z, 0.02);
+}
+
+TEST(TorqueStage, NamesFriction) {
+  Truth truth;
+  truth.viscous = 0.05;
+  const TorqueStage stage = stage_of(truth);
+  ASSERT_EQ(stage.named.size(), 1U) << names_of(stage);
+  EXPECT_EQ(stage.named.front().label(), "viscous@elbow_motor");
+}
+
+TEST(TorqueStage, NamesNothingWhereNothingIsMissing) { EXPECT_EQ(names_of(stage_of({})), ""); }
+
+// A mass that the model knows to 10 % is not an effect, however much it explains.
+TEST(TorqueStage, NamesNothingForANumberWithinWhatIsStated) {
+  Truth truth;
+  truth.lower_mass = 0.65;
+  EXPECT_EQ(names_of(stage_of(truth)), "");
+}
+
+}  // namespace
+}  // namespace plumbline::validation

@@ -1,0 +1,103 @@
+#include "validation/identify/diagnose/family.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "simulator/model/plant.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// By the names of their laws, friction first. A law that is in none is a family of its own.
+const std::vector<std::vector<std::string>>& families() {
+  static const std::vector<std::vector<std::string>> kFamilies{
+      {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
+       "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
+      {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
+      {"actuator_lag", "current_loop", "command_delay"},
+      {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
+      {"cable_stretch", "backlash"},
+      {"encoder_offset", "encoder_scale", "encoder_eccentricity"}};
+  return kFamilies;
+}
+
+constexpr int kFriction = 0;
+
+/// A law that is costly to try, and laws without states that depend on the same (command, velocity,
+/// acceleration) and take a share of what it does.
+struct Forerunners {
+  std::string law;
+  std::vector<std::string> of;
+};
+
+const std::vector<Forerunners>& forerunners() {
+  static const std::vector<Forerunners> kForerunners{
+      {"voltage_limit", {"torque_saturation", "torque_constant_error", "viscous", "quadratic"}},
+      {"thermal_motor", {"torque_constant_error", "torque_saturation"}},
+      {"current_loop", {"command_delay", "torque_constant_error"}},
+      {"resonator", {"viscous", "spring", "hardening", "rotor_inertia"}}};
+  return kForerunners;
+}
+
+int family_of(const effects::Law& law) {
+  const std::string& name = law.declaration().name;
+  for (std::size_t f = 0; f < families().size(); ++f) {
+    if (std::find(families()[f].begin(), families()[f].end(), name) != families()[f].end()) {
+      return static_cast<int>(f);
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
+bool has_forerunners(const effects::Law& law) {
+  return std::any_of(forerunners().begin(), forerunners().end(),
+                     [&](const Forerunners& one) { return one.law == law.declaration().name; });
+}
+
+bool is_forerunner(const effects::Law& first, const effects::Law& law) {
+  return std::any_of(forerunners().begin(), forerunners().end(), [&](const Forerunners& one) {
+    return one.law == law.declaration().name &&
+           std::find(one.of.begin(), one.of.end(), first.declaration().name) != one.of.end();
+  });
+}
+
+bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
+
+TiedPlaces::TiedPlaces(const model::Model& model) {
+  const model::Plant plant(model, {});
+  const auto add = [&](const std::string& name) {
+    Eigen::VectorXd direction(plant.positions());
+    for (Eigen::Index i = 0; i < direction.size(); ++i) {
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+      x[plant.positions() + i] = 1.0;
+      direction[i] = plant.velocity_of(name, x.data());
+    }
+    directions_.emplace(name, direction.normalized());
+  };
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    add(coordinate.name);
+  }
+  for (const model::Motor& motor : model.motors) {
+    add(motor.name);
+  }
+}
+
+bool TiedPlaces::are_one(const std::string& a, const std::string& b) const {
+  constexpr double kParallel = 1.0 - 1e-9;
+  const auto one = directions_.find(a);
+  const auto other = directions_.find(b);
+  return a == b || (one != directions_.end() && other != directions_.end() &&
+                    std::abs(one->second.dot(other->second)) > kParallel);
+}
+
+bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other, const TiedPlaces& places) {
+  return places.are_one(one.at, other.at) && family_of(*one.law) >= 0 &&
+         family_of(*one.law) == family_of(*other.law);
+}
+
+}  // namespace plumbline::validation

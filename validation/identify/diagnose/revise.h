@@ -1,0 +1,17 @@
+// What was named before the other effects were in the model, looked at again with them in it.
+#pragma once
+
+#include "validation/identify/diagnose/diagnose.h"
+
+namespace plumbline::validation {
+
+/// A model effect less.
+Stage without_effect(const Stage& stage, int effect);
+
+/// Each finding but the last was chosen while something else was still missing, and so were its rivals. With
+/// everything named in the model its place is tried with each rival: one that now predicts better in enough
+/// resamples takes the place, and one that is now surely worse is no rival any more.
+void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
+                   const Progress& progress, Diagnosis& diagnosis);
+
+}  // namespace plumbline::validation

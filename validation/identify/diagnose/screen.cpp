@@ -1,0 +1,295 @@
+#include "validation/identify/diagnose/screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "validation/identify/diagnose/family.h"
+#include "validation/identify/diagnose/part.h"
+#include "validation/identify/diagnose/promise.h"
+#include "validation/identify/diagnose/tangents.h"
+#include "validation/identify/predict/carried_states.h"
+#include "validation/identify/predict/kept_keys.h"
+#include "validation/identify/predict/work_ahead.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
+Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
+                   const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
+  LinearProblem problem =
+      linear_problem(extended.model, extended.parameters, extended.theta, data, windows, x0);
+  Room& bounds = problem.bounds;
+  // A linearisation far from null is trusted for about a factor of two.
+  const Eigen::Index count = extended.theta.size();
+  for (Eigen::Index p = count - static_cast<Eigen::Index>(own); p < count; ++p) {
+    bounds.lower[p] = std::max(bounds.lower[p], -1.0);
+    bounds.upper[p] = std::min(bounds.upper[p], 1.0);
+  }
+  return promise_of(problem);
+}
+
+/// An infinite one where the model cannot be integrated on these trials: it is no explanation of them.
+Promise promise_unless_lost(const Extended& extended, std::size_t own, const Data& data,
+                            const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
+  try {
+    return promise_at(extended, own, data, windows, x0);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    return {Eigen::VectorXd::Zero(static_cast<Eigen::Index>(extended.parameters.size())), kNone, kNone};
+  }
+}
+
+Promise kept_promise(const Extended& extended, std::size_t own, const Data& data,
+                     const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
+  ResultKey key = key_of("screen", extended.model, data);
+  add_parameters(extended.parameters, key);
+  key.numbers.add(extended.theta).add(static_cast<double>(own)).add(x0);
+  for (const int w : windows) {
+    key.numbers.add(w);
+  }
+  const Record record = kept(data, key, [&] {
+    const Promise promise = promise_unless_lost(extended, own, data, windows, x0);
+    return Record().add(promise.step).add(promise.train).add(promise.held_out);
+  });
+  RecordReader reader(record);
+  Promise promise;
+  promise.step = reader.vector();
+  promise.train = reader.number();
+  promise.held_out = reader.number();
+  return promise;
+}
+
+/// Windows begin where the measurements say; segments, which may begin in a contact, where the stage has
+/// them.
+std::vector<Eigen::VectorXd> start_states(const Stage& stage, const Extended& extended, const Data& data) {
+  return data.has_segments() ? carried_states(fitted_model(stage), extended.model, data, stage.estimate.x0)
+                             : std::vector<Eigen::VectorXd>(data.windows.size());
+}
+
+void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
+                  const Data& data, const Part& part) {
+  const Extended extended =
+      extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
+  const Promise promise = kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data,
+                                       part.windows, start_states(stage, extended, data));
+  hypothesis.step = promise.step;
+  hypothesis.promised_train = promise.train / part.train_share;
+  hypothesis.promised_held_out = promise.held_out / part.held_out_share;
+}
+
+void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+}
+
+/// Each of them by one of the ranks, where there are several.
+void screen_ahead(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                  const Part& part, const std::vector<Hypothesis>& starts) {
+  std::vector<Ahead> pieces;
+  for (const Hypothesis& start : starts) {
+    pieces.push_back({"screening " + candidates[static_cast<std::size_t>(start.candidate)].label(), [&] {
+                        Hypothesis copy = start;
+                        screen_start(stage, candidates, copy, data, part);
+                      }});
+  }
+  work_ahead(data, pieces);
+}
+
+/// Starts from which the model cannot be integrated are out.
+void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                   const Part& part, const Progress& progress, std::vector<Hypothesis>& starts) {
+  screen_ahead(stage, candidates, data, part, starts);
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
+    progress("screening " + candidate.label(),
+             static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
+    screen_start(stage, candidates, starts[s], data, part);
+  }
+  starts.erase(std::remove_if(starts.begin(), starts.end(),
+                              [](const Hypothesis& one) { return !std::isfinite(one.promised()); }),
+               starts.end());
+}
+
+/// Bristles at the places where the friction that they contain promises most: where neither viscous nor dry
+/// friction explains anything they do not either, and they cost as much as all laws without states.
+void keep_where_friction_promises(const std::vector<Candidate>& candidates,
+                                  const std::vector<Hypothesis>& tangents, std::vector<Hypothesis>& starts) {
+  constexpr std::size_t kPlaces = 4;
+  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
+    return candidates[static_cast<std::size_t>(one.candidate)];
+  };
+  std::vector<std::string> places;
+  for (const Hypothesis& one : tangents) {  // sorted: the most promising first
+    const Candidate& candidate = candidate_of(one);
+    if (places.size() < kPlaces && is_friction(*candidate.law) &&
+        std::find(places.begin(), places.end(), candidate.at) == places.end()) {
+      places.push_back(candidate.at);
+    }
+  }
+  const auto is_elsewhere = [&](const Hypothesis& one) {
+    const Candidate& candidate = candidate_of(one);
+    return is_friction(*candidate.law) && candidate.law->state_count() > 0 &&
+           std::find(places.begin(), places.end(), candidate.at) == places.end();
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
+}
+
+/// Laws that are costly to try, at the places where one that depends on the same promises a noticeable share
+/// of what is above the floor, and there the most.
+void keep_behind_forerunners(const std::vector<Candidate>& candidates,
+                             const std::vector<Hypothesis>& tangents, const Stage& stage,
+                             std::vector<Hypothesis>& starts) {
+  constexpr double kNoticeable = 0.1;
+  constexpr std::size_t kPlaces = 2;
+  constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
+  const double now = stage.estimate.predicted.scores.square();
+  const double most = now - kNoticeable * std::max(now - kFloors, 0.0);
+  const TiedPlaces places(stage.model);
+  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
+    return candidates[static_cast<std::size_t>(one.candidate)];
+  };
+  const auto is_kept = [&](const Hypothesis& start) {
+    const Candidate& costly = candidate_of(start);
+    std::vector<std::string> first;  // places, the most promising first
+    for (const Hypothesis& one : tangents) {
+      const Candidate& candidate = candidate_of(one);
+      if (first.size() < kPlaces && one.promised() < most && is_forerunner(*candidate.law, *costly.law) &&
+          std::find(first.begin(), first.end(), candidate.at) == first.end()) {
+        first.push_back(candidate.at);
+      }
+    }
+    return std::any_of(first.begin(), first.end(),
+                       [&](const std::string& at) { return places.are_one(at, costly.at); });
+  };
+  starts.erase(std::remove_if(starts.begin(), starts.end(),
+                              [&](const Hypothesis& start) {
+                                return has_forerunners(*candidate_of(start).law) && !is_kept(start);
+                              }),
+               starts.end());
+}
+
+constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
+
+/// The third of the starts that promises most on a few windows.
+void keep_promising(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                    const Part& few, const Progress& progress, std::vector<Hypothesis>& starts) {
+  constexpr std::size_t kLeast = 12;
+  screen_starts(stage, candidates, data, few, progress, starts);
+  sort_by_promise(starts);
+  starts.resize(std::min(starts.size(), std::max(kLeast, starts.size() / 3)));
+}
+
+/// A start, and which of the screened ones it is of.
+struct SecondLook {
+  std::size_t of = 0;
+  Hypothesis again;
+};
+
+/// Where the promises of the best lead that had to be linearised away from their null value.
+std::vector<SecondLook> second_looks(const Stage& stage, const std::vector<Candidate>& candidates,
+                                     const std::vector<Hypothesis>& found) {
+  constexpr std::size_t kLooks = 12;
+  std::vector<int> seen;
+  std::vector<SecondLook> looks;
+  for (std::size_t h = 0; h < found.size() && seen.size() < kLooks; ++h) {
+    if (found[h].tangent || std::find(seen.begin(), seen.end(), found[h].candidate) != seen.end()) {
+      continue;
+    }
+    seen.push_back(found[h].candidate);
+    const Candidate& candidate = candidates[static_cast<std::size_t>(found[h].candidate)];
+    const Extended extended = extend(stage, candidate, found[h].start);
+    const Eigen::VectorXd theta = promised_theta(extended, found[h]);
+    Hypothesis again = found[h];
+    again.start = with_values(extended.model, extended.parameters, theta).effects.back().numbers();
+    if (!candidate.law->is_null(again.start.data())) {
+      looks.push_back({h, std::move(again)});
+    }
+  }
+  return looks;
+}
+
+/// They are linearised once more there: theirs is the promise that a straight line keeps worst.
+void look_again(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                const Part& part, const Progress& progress, std::vector<Hypothesis>& found) {
+  std::vector<SecondLook> looks = second_looks(stage, candidates, found);
+  std::vector<Hypothesis> starts;
+  for (const SecondLook& look : looks) {
+    starts.push_back(look.again);
+  }
+  screen_ahead(stage, candidates, data, part, starts);
+  for (SecondLook& look : looks) {
+    progress("looking again at " + candidates[static_cast<std::size_t>(look.again.candidate)].label(), 0.95);
+    screen_start(stage, candidates, look.again, data, part);
+    if (look.again.promised() < found[look.of].promised()) {
+      found[look.of] = std::move(look.again);
+    }
+  }
+  sort_by_promise(found);
+}
+
+}  // namespace
+
+model::Model fitted_model(const Stage& stage) {
+  return with_values(stage.model, stage.parameters, stage.estimate.theta);
+}
+
+Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0, double tolerance) {
+  PredictorPool pool(stage.model, data);
+  stage.estimate =
+      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, tolerance});
+  return stage;
+}
+
+Extended extend(const Stage& stage, const Candidate& candidate, const effects::Values& values) {
+  Extended extended{fitted_model(stage), stage.parameters, {}};
+  extended.model.effects.push_back(make_use(candidate, values));
+  for (FreeParameter& parameter : searched_parameters_of(
+           extended.model, candidate, static_cast<int>(extended.model.effects.size()) - 1)) {
+    extended.parameters.push_back(std::move(parameter));
+  }
+  extended.theta = values_of(extended.model, extended.parameters);
+  return extended;
+}
+
+Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypothesis) {
+  return stepped(extended.parameters, extended.theta, search_units(extended.parameters, extended.theta),
+                 hypothesis.step);
+}
+
+std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                               const Progress& progress) {
+  std::vector<Hypothesis> tangents;
+  std::vector<Hypothesis> starts;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    for (const effects::Values& start : starts_of(stage.model, candidates[c])) {
+      Hypothesis hypothesis;
+      hypothesis.candidate = static_cast<int>(c);
+      hypothesis.start = start;
+      hypothesis.tangent = has_tangent(candidates[c], start);
+      (hypothesis.tangent ? tangents : starts).push_back(std::move(hypothesis));
+    }
+  }
+  progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
+  std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
+  sort_by_promise(found);
+  keep_where_friction_promises(candidates, found, starts);
+  keep_behind_forerunners(candidates, found, stage, starts);
+  const Part part = enough_to_tell(stage, data);
+  constexpr std::size_t kMany = 60;
+  if (data.has_segments() || starts.size() > kMany) {
+    keep_promising(stage, candidates, data, part_of(stage, telling(stage, kFew, part.windows, data), data),
+                   progress, starts);
+  }
+  screen_starts(stage, candidates, data, part, progress, starts);
+  found.insert(found.end(), starts.begin(), starts.end());
+  sort_by_promise(found);
+  look_again(stage, candidates, data, part, progress, found);
+  return found;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,79 @@
+// The points at which a predicted window is known: its samples, and points between them.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/identify/predict/windows.h"
+
+namespace plumbline::validation {
+
+void Predictor::begin_nodes(const Window& window) {
+  states_.resize(plant_.states(), window.count);
+  nodes_ = 1;
+  node_of_sample_.clear();
+  node_times_.clear();
+  jumps_ = plant_.jumps();
+  jump_nodes_.clear();
+  events_seen_ = 0;
+  if (plant_.meets_ground() || !jumps_.empty()) {
+    node_of_sample_.assign(1, 0);
+    node_times_.assign(1, 0.0);
+  }
+}
+
+void Predictor::add_node(double time, const Eigen::VectorXd& state) {
+  if (nodes_ == states_.cols()) {
+    states_.conservativeResize(Eigen::NoChange, 2 * states_.cols());
+  }
+  states_.col(nodes_++) = state;
+  node_times_.push_back(time);
+}
+
+void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
+  if (node_of_sample_.empty()) {
+    states_.col(nodes_++) = state;
+    return;
+  }
+  node_of_sample_.push_back(nodes_);
+  add_node(static_cast<double>(sample) * trial_.period, state);
+}
+
+// A foot that is not in the ground but would be there within two samples may meet it in this one.
+bool Predictor::is_near_ground(Eigen::Index node) {
+  if (!plant_.meets_ground()) {
+    return false;
+  }
+  for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
+    const model::FootDepth foot = plant_.foot_depth(static_cast<int>(f), states_.col(node).data());
+    if (foot.depth > 0.0 || foot.depth + 2.0 * trial_.period * foot.rate > 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Eigen::Index Predictor::node_of(Eigen::Index sample) const {
+  return node_of_sample_.empty() ? sample : node_of_sample_[static_cast<std::size_t>(sample)];
+}
+
+Eigen::MatrixXd Predictor::predicted_states() const {
+  if (node_of_sample_.empty()) {
+    return states_.leftCols(nodes_);
+  }
+  const auto samples = static_cast<Eigen::Index>(node_of_sample_.size());
+  Eigen::MatrixXd states(states_.rows(), samples);
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    states.col(k) = states_.col(node_of(k));
+  }
+  return states;
+}
+
+double Predictor::node_time(Eigen::Index node) const {
+  return node_times_.empty() ? static_cast<double>(node) * trial_.period
+                             : node_times_[static_cast<std::size_t>(node)];
+}
+
+double Predictor::length_of(Eigen::Index node) const {
+  return node_times_.empty() ? trial_.period : node_time(node + 1) - node_time(node);
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,116 @@
+#include "validation/identify/predict/stance.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "contact/contact_law.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kNear = 0.03;  // m: zero errors of a few degrees on a leg of a metre
+constexpr double kSlow = 0.25;  // m/s: a foot that lands is several times as fast
+
+struct Standing {
+  int foot = 0;
+  bool stands = false;  // else it is too deep and moves: to be lifted
+};
+
+/// The feet that are to be moved.
+std::vector<Standing> standing_feet(model::Plant& plant, const Eigen::VectorXd& x) {
+  std::vector<Standing> some;
+  for (std::size_t f = 0; f < plant.model().feet.size(); ++f) {
+    const auto foot = static_cast<int>(f);
+    const model::FootDepth at = plant.foot_depth(foot, x.data());
+    if (!std::isfinite(at.depth) || at.depth < -kNear) {
+      continue;
+    }
+    const bool stands = at.depth < kNear && std::abs(at.rate) < kSlow;
+    if (stands || at.depth > 0.0) {
+      some.push_back({foot, stands});
+    }
+  }
+  return some;
+}
+
+const model::EffectUse* normal_law_at(const model::Model& model, const model::Foot& foot) {
+  const auto found = std::find_if(model.effects.begin(), model.effects.end(), [&](const auto& use) {
+    return foot.answers_to(use.at) && dynamic_cast<const contact::NormalLaw*>(use.law.get()) != nullptr;
+  });
+  return found == model.effects.end() ? nullptr : &*found;
+}
+
+/// The depth at which a foot carries `weight`, by bisection; 0 where it has no law.
+double resting_depth(const model::Model& model, const model::Foot& foot, double weight) {
+  constexpr double kDeepest = 0.1;  // m
+  constexpr int kHalvings = 40;
+  const model::EffectUse* use = normal_law_at(model, foot);
+  if (use == nullptr) {
+    return 0.0;
+  }
+  const auto& law = dynamic_cast<const contact::NormalLaw&>(*use->law);
+  const effects::Values p = use->numbers();
+  double low = 0.0;
+  double high = kDeepest;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (law.force(middle, 0.0, p.data()) < weight ? low : high) = middle;
+  }
+  return low;
+}
+
+double weight_of(const model::Model& model) {
+  double mass = 0.0;
+  for (const model::Body& body : model.skeleton.bodies) {
+    mass += body.mass;
+  }
+  return mass * model.skeleton.gravity.norm();
+}
+
+/// The smallest change in units of the deviations that changes the depths by `wanted`.
+Eigen::VectorXd smallest(const Eigen::MatrixXd& J, const Eigen::VectorXd& deviations,
+                         const Eigen::VectorXd& wanted) {
+  const Eigen::MatrixXd scaled = J * deviations.asDiagonal();
+  return deviations.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(wanted));
+}
+
+}  // namespace
+
+void stand_on_ground(model::Plant& plant, const Eigen::VectorXd& deviations, Eigen::VectorXd& x) {
+  constexpr int kCorrections = 3;  // the depth is not linear in the positions
+  const std::vector<Standing> feet = standing_feet(plant, x);
+  if (feet.empty()) {
+    return;
+  }
+  const Eigen::Index nz = plant.positions();
+  const auto count = static_cast<Eigen::Index>(feet.size());
+  const auto standing =
+      std::count_if(feet.begin(), feet.end(), [](const Standing& one) { return one.stands; });
+  const double share = weight_of(plant.model()) / static_cast<double>(std::max<std::ptrdiff_t>(standing, 1));
+  Eigen::MatrixXd J(count, nz);
+  for (int correction = 0; correction < kCorrections; ++correction) {
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Standing& one = feet[static_cast<std::size_t>(i)];
+      const model::FootDepth at = plant.foot_depth(one.foot, x.data());
+      J.row(i) = plant.depth_slope(one.foot, x.data());
+      const model::Foot& foot = plant.model().feet[static_cast<std::size_t>(one.foot)];
+      wanted[i] = (one.stands ? resting_depth(plant.model(), foot, share) : 0.0) - at.depth;
+    }
+    x.head(nz) += smallest(J, deviations, wanted);
+  }
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Standing& one = feet[static_cast<std::size_t>(i)];
+    J.row(i) = plant.depth_slope(one.foot, x.data());
+    rates[i] = one.stands ? -plant.foot_depth(one.foot, x.data()).rate : 0.0;
+    if (!one.stands) {
+      J.row(i).setZero();
+    }
+  }
+  x.segment(nz, nz) += smallest(J, deviations, rates);
+}
+
+}  // namespace plumbline::validation

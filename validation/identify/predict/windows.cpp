@@ -1,0 +1,325 @@
+#include "validation/identify/predict/windows.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "simulator/sensing/differentiation.h"
+#include "simulator/trace/error.h"
+#include "validation/identify/predict/jump_ode.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// Integrator steps of a sample: a search goes past motions that nothing can follow. An impact takes some
+/// tens at the tolerance of 1e-5; of a method of third order they grow as the tolerance's third root falls.
+long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::cbrt(1e-5 / tolerance)); }
+
+/// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
+constexpr double kStiff = 16.0;
+
+/// Temperatures are carried from the beginning of the record, where the motor is taken as cold; of a longer
+/// one over this time, s.
+constexpr double kHeat = 1800.0;
+
+/// Does a state of the plant change over minutes: a temperature?
+bool remembers_heat(const model::Plant& plant) {
+  const std::vector<std::string> names = plant.state_names();
+  const std::vector<int> carried = plant.carried_states();
+  return std::any_of(carried.begin(), carried.end(), [&](int i) {
+    return names[static_cast<std::size_t>(i)].find("temperature of ") != std::string::npos;
+  });
+}
+
+}  // namespace
+
+void FreeParameter::set(model::Plant& plant, double value) const {
+  plant.set_value(id, value);
+  for (const model::ParameterId& other : also) {
+    plant.set_value(other, value);
+  }
+}
+
+Predictor::Predictor(const model::Model& model, const Trial& trial, const PredictOptions& options)
+    : trial_(trial),
+      options_(options),
+      plant_(as_recorded(model, trial), trial.locks, trial.terrain),
+      from_channels_(plant_, start_observations(plant_, trial)) {
+  floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
+  for (std::size_t c = 0; c < trial.measured.size(); ++c) {
+    const int s = model.sensor_index(trial.measured[c].sensor);
+    sensor_of_channel_.push_back(s);
+    const model::Sensor& sensor = plant_.model().sensors[static_cast<std::size_t>(s)];
+    floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
+    if (sensor.shows_position()) {
+      position_channels_.push_back(static_cast<Eigen::Index>(c));
+    }
+  }
+  for (const SwitchRecord& record : trial.switches) {
+    const model::ContactSwitch* known = model.find_switch(record.name);
+    foot_of_switch_.push_back(known == nullptr ? -1 : known->foot);
+  }
+  if (plant_.meets_ground() && options_.method == integrate::Method::explicit_rk) {
+    options_.method = integrate::Method::rosenbrock;  // the ground is stiff
+  }
+  command_samples_ = command_samples(model, trial.commands, trial.samples());
+  refresh_commands();
+}
+
+void Predictor::refresh_commands() {
+  commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, plant_.delays());
+}
+
+Eigen::MatrixXd Predictor::measured_positions() const {
+  Eigen::MatrixXd y(channels(), trial_.samples());
+  for (int c = 0; c < channels(); ++c) {
+    y.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
+  }
+  return from_channels_.positions(with_starts(y, false));
+}
+
+void Predictor::measure_motion() {
+  const Eigen::Index n = trial_.samples();
+  const Eigen::Index nz = plant_.positions();
+  Eigen::MatrixXd rates(channels(), n);
+  for (int c = 0; c < channels(); ++c) {
+    const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
+    rates.row(c) =
+        sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal()).transpose();
+  }
+  motion_.resize(2 * nz, n);
+  motion_.topRows(nz) = measured_positions();
+  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true));
+}
+
+void Predictor::carry_hidden(const Window& window, double* x) {
+  const std::vector<int> hidden = plant_.carried_states();
+  const bool too_short = trial_.samples() < sensing::DifferentiationOptions::acausal().window;
+  if (hidden.empty() || too_short) {
+    return;
+  }
+  if (motion_.size() == 0) {
+    measure_motion();
+  }
+  const auto history = remembers_heat(plant_) ? kHeat : options_.history;
+  const auto reach = static_cast<Eigen::Index>(std::lround(history / trial_.period));
+  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
+  for (const Stretch& stretch : trial_.stretches) {
+    from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
+  }
+  Eigen::VectorXd command(plant_.motors());
+  commands_->at(from, 0, command.data());
+  plant_.settle(command.data(), x);
+  const std::vector<double>& breaks = commands_->breaks();
+  for (Eigen::Index k = from; k < window.first; ++k) {
+    for (std::size_t b = 0; b < breaks.size(); ++b) {
+      commands_->at(k, b, command.data());
+      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
+                          (next - breaks[b]) * trial_.period, x);
+    }
+  }
+}
+
+// d(hidden states at the window's start)/d(parameters), states x parameters. The window has been run with the
+// present parameters: its first state holds what they were carried to.
+Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
+                                         const Eigen::VectorXd& steps) {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(plant_.states(), steps.size());
+  const std::vector<int> owners = plant_.carried_state_effects();
+  const Eigen::VectorXd here = states_.col(0);
+  Eigen::VectorXd there = here;
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    if (std::find(owners.begin(), owners.end(), ids[p].effect) == owners.end()) {
+      continue;
+    }
+    const auto i = static_cast<Eigen::Index>(p);
+    const double value = plant_.value(ids[p]);
+    plant_.set_value(ids[p], value + steps[i]);
+    carry_hidden(window, there.data());
+    plant_.set_value(ids[p], value);
+    slopes.col(i) = (there - here) / steps[i];
+  }
+  return slopes;
+}
+
+// Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps
+// are short where it does. Elsewhere a piece is a sample.
+bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, double most) {
+  if (options_.method == integrate::Method::explicit_rk) {
+    try {
+      return run(window, x0, integrate::Method::explicit_rk, std::min(options_.most_steps, kStiff), most);
+    } catch (const std::runtime_error&) {
+      // Stiff: dry friction that holds, a hard contact. Decided anew for every window, so that what a window
+      // gives does not depend on those before it.
+      return run(window, x0, integrate::Method::rosenbrock, options_.most_steps, most);
+    }
+  }
+  return run(window, x0, options_.method, options_.most_steps, most);
+}
+
+bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
+                    double most_steps, double most) {
+  begin_nodes(window);
+  JumpOde ode(plant_, jumps_);
+  integrate::Options options;
+  options.set_tolerance(options_.relative_tolerance);
+  options.method = method;
+  options.order = method == integrate::Method::explicit_rk ? 3 : 0;
+  options.max_steps = most_steps_of_sample(options_.relative_tolerance);
+  integrate::Integrator integrator(ode, options);
+  refresh_commands();
+  states_.col(0) = x0;
+  carry_hidden(window, states_.col(0).data());
+  const double t0 = trial_.time[window.first];
+  integrator.start(t0, states_.col(0));
+  const std::vector<double>& breaks = commands_->breaks();
+  // A short stretch may be much stiffer than the mean: a share of the window, of a very short one some
+  // samples.
+  constexpr double kBurst = 0.2;
+  constexpr double kLeastBurst = 20.0;
+  const double burst = std::max(kBurst * static_cast<double>(window.count), kLeastBurst);
+  // A plate shows means over a sample, which the state at its end does not tell.
+  const bool is_watched = std::isfinite(most) && !integrate::PlateMeans(plant_).any();
+  double square = 0.0;
+  bool within = true;
+  for (Eigen::Index k = 0; within && k + 1 < window.count; ++k) {
+    const bool in_pieces = is_near_ground(nodes_ - 1);
+    for (std::size_t b = 0; b < breaks.size(); ++b) {
+      commands_->at(window.first + k, b, ode.command());
+      integrator.input_changed(false);
+      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      const double end = t0 + (static_cast<double>(k) + next) * trial_.period;
+      if (in_pieces) {
+        advance_in_pieces(integrator, end, t0);
+      } else {
+        integrator.advance(end);
+      }
+      add_jumps(integrator.events(), t0);
+      if (in_pieces && next < 1.0) {
+        add_node(end - t0, integrator.state());
+      }
+    }
+    add_sample(k + 1, integrator.state());
+    if (static_cast<double>(integrator.summary().steps) > most_steps * (static_cast<double>(k) + burst)) {
+      throw std::runtime_error("a window needs more integrator steps than are worth while");
+    }
+    if (is_watched) {
+      square += square_of_sample(window, k + 1);
+      within = square <= most;
+    }
+  }
+  evaluations_ += integrator.summary().rate_evaluations;
+  return within;
+}
+
+double Predictor::square_of_sample(const Window& window, Eigen::Index sample) {
+  Eigen::VectorXd y(plant_.sensors());
+  plant_.outputs(states_.col(node_of(sample)).data(), y.data());
+  double square = 0.0;
+  for (int c = 0; c < channels(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const double r =
+        (trial_.measured[i].values[window.first + sample] - y[sensor_of_channel_[i]]) / floors_[c];
+    square += r * r;
+  }
+  return square;
+}
+
+void Predictor::advance_in_pieces(integrate::Integrator& integrator, double end, double t0) {
+  const long most = integrator.summary().steps + most_steps_of_sample(options_.relative_tolerance);
+  while (integrator.time() < end) {
+    if (integrator.summary().steps > most) {
+      throw std::runtime_error("a sample needs more integrator steps than are worth while");
+    }
+    integrator.step(end);
+    const bool jumped = integrator.events().size() > events_seen_;
+    add_jumps(integrator.events(), t0);
+    if (!jumped && integrator.time() < end) {
+      add_node(integrator.time() - t0, integrator.state());
+    }
+  }
+}
+
+void Predictor::average_plates(Eigen::Index sample, integrate::PlateMeans& plates, Eigen::VectorXd& y) {
+  if (!plates.any() || sample == 0) {
+    return;
+  }
+  const Eigen::Index first = node_of(sample - 1);
+  plates.begin(node_time(first), states_.col(first).data());
+  for (Eigen::Index n = first + 1; n <= node_of(sample); ++n) {
+    plates.add(node_time(n), states_.col(n).data());
+  }
+  plates.write(y.data());
+}
+
+Eigen::MatrixXd Predictor::predict(const Window& window, const Eigen::VectorXd& x0) {
+  run(window, x0);
+  return predicted(window);
+}
+
+Eigen::MatrixXd Predictor::predicted(const Window& window) {
+  Eigen::MatrixXd predicted(window.count, channels());
+  Eigen::VectorXd y(plant_.sensors());
+  integrate::PlateMeans plates(plant_);
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    plant_.outputs(states_.col(node_of(k)).data(), y.data());
+    average_plates(k, plates, y);
+    for (int c = 0; c < channels(); ++c) {
+      predicted(k, c) = y[sensor_of_channel_[static_cast<std::size_t>(c)]];
+    }
+  }
+  return predicted;
+}
+
+Eigen::Index Predictor::rows(const Window& window) const {
+  return window.count * channels() + static_cast<Eigen::Index>(window.events.size());
+}
+
+Eigen::VectorXd Predictor::residual(const Window& window, const Eigen::VectorXd& x0) {
+  run(window, x0);
+  return residual_of_run(window);
+}
+
+std::optional<Eigen::VectorXd> Predictor::residual_within(const Window& window, const Eigen::VectorXd& x0,
+                                                          double most) {
+  if (!run(window, x0, most)) {
+    return std::nullopt;
+  }
+  return residual_of_run(window);
+}
+
+Eigen::VectorXd Predictor::residual_of_run(const Window& window) {
+  const Eigen::MatrixXd at = predicted(window);
+  Eigen::VectorXd r(rows(window));
+  for (Eigen::Index k = 0; k < window.count; ++k) {
+    for (int c = 0; c < channels(); ++c) {
+      const double measured = trial_.measured[static_cast<std::size_t>(c)].values[window.first + k];
+      r[k * channels() + c] = (measured - at(k, c)) / floors_[c];
+    }
+  }
+  timing_residuals(window, r);
+  return r;
+}
+
+Eigen::VectorXd Predictor::squares(const Window& window, const Eigen::VectorXd& residual) const {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Matrix> by_sample(residual.data(), window.count, channels());
+  Eigen::VectorXd sampled = by_sample.colwise().squaredNorm().transpose();
+  if (trial_.switches.empty()) {
+    return sampled;
+  }
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(channels() + static_cast<Eigen::Index>(trial_.switches.size()));
+  all.head(channels()) = sampled;
+  for (std::size_t e = 0; e < window.events.size(); ++e) {
+    const ContactEvent& event = trial_.contact_events[static_cast<std::size_t>(window.events[e])];
+    const double one = residual[window.count * channels() + static_cast<Eigen::Index>(e)];
+    all[channels() + event.record] += one * one;
+  }
+  return all;
+}
+
+}  // namespace plumbline::validation

@@ -1,0 +1,214 @@
+#include "validation/identify/standard/standard_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "validation/identify/compare/compare.h"
+#include "validation/identify/predict/lost_windows.h"
+#include "validation/identify/predict/reach.h"
+#include "validation/identify/predict/zero_errors.h"
+#include "validation/identify/standard/needed_torques.h"
+
+namespace plumbline::validation {
+namespace {
+
+/// Of each motor, and of each joint that moves without one.
+std::map<std::string, MotorScales> scales_of(PredictorPool& pool, const Estimate& given) {
+  const effects::Catalogue friction({effects::Catalogue::all().find("viscous")});
+  std::map<std::string, MotorScales> scales;
+  for (const Candidate& one : list_candidates(pool, friction, {}, given)) {
+    if (!floats(pool.model(), one.at)) {
+      scales[one.at] = {one.scales.force, one.scales.velocity, one.scales.inertia};
+    }
+  }
+  return scales;
+}
+
+/// What is stated, weighed against residuals `scale` times as large as the floors.
+std::vector<FreeParameter> parameters_of(const FreeModel& free, double scale) {
+  std::vector<FreeParameter> parameters;
+  for (const FreeValue& value : free.values) {
+    parameters.push_back(as_parameter(value, scale));
+  }
+  return parameters;
+}
+
+Eigen::VectorXd values_from(const FreeModel& free, const FreeModel* other) {
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(free.values.size()));
+  for (std::size_t i = 0; i < free.values.size(); ++i) {
+    const FreeValue& value = free.values[i];
+    double start = value.value;
+    for (std::size_t k = 0; other != nullptr && k < other->values.size(); ++k) {
+      if (other->values[k].label == value.label) {
+        start = std::clamp(other->values[k].value, value.lower, value.upper);
+      }
+    }
+    theta[static_cast<Eigen::Index>(i)] = start;
+  }
+  return theta;
+}
+
+double scale_of(const Estimate& estimate) { return std::max(1.0, estimate.scores.train); }
+
+/// From these values to where less than a thousandth is gained, with the scale of the error that is there.
+void search(PredictorPool& pool, const FreeModel& free, const EstimateOptions& options, Stage& stage) {
+  constexpr int kScales = 3;
+  constexpr double kMuch = 0.7;  // the scale that is left, as a share of the one that was searched with
+  for (int i = 0; i < kScales; ++i) {
+    const double scale = scale_of(stage.estimate);
+    stage.parameters = parameters_of(free, scale);
+    stage.estimate = gauss_newton(pool, stage.parameters, stage.estimate.theta, stage.estimate.x0, options);
+    if (scale_of(stage.estimate) > kMuch * scale) {
+      return;
+    }
+  }
+}
+
+/// As given, or with the values that the torques ask for: what leaves less.
+void take_better_start(const FreeModel& free, const FreeModel* torques, const Data& data, Stage& stage) {
+  stage.estimate.theta = values_from(free, nullptr);
+  if (torques == nullptr) {
+    return;
+  }
+  const Eigen::VectorXd theta = values_from(free, torques);
+  PredictorPool pool(with_values(free.model, parameters_of(free, 1.0), theta), data);
+  try {
+    Estimate other = estimate_states(pool, stage.estimate.x0);
+    if (other.scores.train < stage.estimate.scores.train) {
+      stage.estimate = std::move(other);
+      stage.estimate.theta = theta;
+    }
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return;  // these values cannot be integrated
+  }
+}
+
+int at_limits(const FreeModel& free, const Eigen::VectorXd& theta) {
+  int count = 0;
+  for (std::size_t i = 0; i < free.values.size(); ++i) {
+    const double value = theta[static_cast<Eigen::Index>(i)];
+    const double near = 1e-6 * free.values[i].spread;
+    count += value <= free.values[i].lower + near || value >= free.values[i].upper - near ? 1 : 0;
+  }
+  return count;
+}
+
+WindowsFit fitted(const model::Model& model, Freed freed, const FreeModel* torques, const Followed& some,
+                  const Data& all) {
+  WindowsFit fit;
+  PredictorPool given(model, some.data);
+  fit.stage.estimate = estimate_states(given, some.x0);
+  const FreeModel free = free_values(model, scales_of(given, fit.stage.estimate), freed);
+  fit.stage.model = free.model;
+  take_better_start(free, torques, some.data, fit.stage);
+  PredictorPool few(free.model, some.data);
+  search(few, free, {8, 3e-3, false}, fit.stage);
+  PredictorPool pool(free.model, all);
+  fit.stage.estimate =
+      gauss_newton(pool, fit.stage.parameters, fit.stage.estimate.theta, {}, {4, 1e-3, false});
+  fit.precision = precision_of(pool, all.windows_of(Role::train), fit.stage.parameters, fit.stage.estimate);
+  fit.values = static_cast<int>(free.values.size());
+  fit.at_limits = at_limits(free, fit.stage.estimate.theta);
+  return fit;
+}
+
+}  // namespace
+
+std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed freed,
+                                              const FreeModel* torques, const Data& data, std::size_t windows,
+                                              const Progress& progress) {
+  if (model.motors.empty()) {
+    return {};
+  }
+  progress("standard identification", 0.0);
+  try {
+    std::vector<LostWindow> lost;
+    const Data all = without_lost(model, data, lost);
+    const model::Model zeroed = with_zero_errors(model, all);
+    const Followed some = follow(zeroed, all.thinned(windows));
+    if (!is_whole(some)) {
+      return {};
+    }
+    WindowsFit fit = fitted(zeroed, freed, torques, some, all);
+    fit.scores = compare(fitted_model(fit.stage), data).scores;
+    return fit;
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return {};  // with so much freedom it cannot be integrated
+  }
+}
+
+std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds{
+      {"masses and centres of mass", {"added_mass", "com_shift"}},
+      {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
+      {"offsets of torque", {"torque_bias"}},
+      {"friction", {"viscous", "coulomb"}}};
+  std::vector<KindShare> shares;
+  for (const auto& [kind, laws] : kKinds) {
+    model::Model model = fitted_model(fit.stage);
+    bool is_freed = false;
+    for (const FreeParameter& one : fit.stage.parameters) {
+      const auto effect = static_cast<std::size_t>(one.id.effect);
+      const model::EffectUse& use = fit.stage.model.effects[effect];
+      if (std::find(laws.begin(), laws.end(), use.law->declaration().name) != laws.end()) {
+        const auto parameter = static_cast<std::size_t>(one.id.parameter);
+        model.effects[effect].values[parameter].value = use.values[parameter].value;
+        is_freed = true;
+      }
+    }
+    if (!is_freed) {
+      continue;
+    }
+    KindShare share{kind, std::numeric_limits<double>::infinity()};
+    try {
+      const Scores scores = compare(model, data).scores;
+      share.without = data.has(Role::held_out) ? scores.held_out : scores.train;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      share.without = std::numeric_limits<double>::infinity();
+    }
+    shares.push_back(share);
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const KindShare& a, const KindShare& b) { return a.without > b.without; });
+  return shares;
+}
+
+WindowsFit fitted_on_all(const Stage& stage, const Data& data) {
+  std::vector<LostWindow> lost;
+  const Data all = without_lost(stage.model, data, lost);
+  WindowsFit fit;
+  fit.stage = stage;
+  PredictorPool pool(fitted_model(stage), all);
+  fit.stage.estimate = gauss_newton(pool, stage.parameters, stage.estimate.theta, {}, {12, 1e-4, false});
+  fit.precision = precision_of(pool, all.windows_of(Role::train), stage.parameters, fit.stage.estimate);
+  fit.values = static_cast<int>(stage.parameters.size());
+  fit.scores = compare(fitted_model(fit.stage), data).scores;
+  return fit;
+}
+
+WindowsFit as_windows_fit(const FreeModel& torques, const Scores& scores) {
+  WindowsFit fit;
+  fit.scores = scores;
+  fit.values = static_cast<int>(torques.values.size());
+  fit.stage.parameters = parameters_of(torques, 1.0);
+  const Eigen::VectorXd theta = values_from(torques, nullptr);
+  fit.precision.deviations.resize(theta.size());
+  for (std::size_t i = 0; i < torques.values.size(); ++i) {
+    fit.precision.deviations[static_cast<Eigen::Index>(i)] = torques.values[i].deviation;
+  }
+  fit.at_limits = at_limits(torques, theta);
+  fit.stage.model = torques.model;
+  fit.stage.estimate.theta = theta;
+  return fit;
+}
+
+}  // namespace plumbline::validation

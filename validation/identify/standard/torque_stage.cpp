@@ -1,0 +1,187 @@
+#include "validation/identify/standard/torque_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace plumbline::validation {
+namespace {
+
+constexpr double kMotionCutoff = 100.0;  // Hz
+constexpr std::size_t kContenders = 8;
+
+TorqueBlocks joined(const TorqueBlocks& a, const TorqueBlocks& b) {
+  TorqueBlocks all{Eigen::MatrixXd(a.squares.rows(), a.squares.cols() + b.squares.cols()), {}};
+  all.samples = all.squares;
+  all.squares << a.squares, b.squares;
+  all.samples << a.samples, b.samples;
+  return all;
+}
+
+/// Minus twice the logarithm of the likelihood of these blocks.
+double misfit(const TorqueBlocks& blocks, const std::vector<Eigen::Index>& drawn, double independent) {
+  const Eigen::VectorXd squares = blocks.squares(Eigen::all, drawn).rowwise().sum();
+  const Eigen::VectorXd samples = blocks.samples(Eigen::all, drawn).rowwise().sum();
+  double sum = 0.0;
+  for (Eigen::Index m = 0; m < squares.size(); ++m) {
+    if (samples[m] > 0.0 && squares[m] > 0.0) {
+      sum += independent * samples[m] * std::log(squares[m] / samples[m]);
+    }
+  }
+  return sum;
+}
+
+/// Logarithm of the geometric mean of the motors' root mean squares.
+double log_error_of(const TorqueBlocks& blocks) {
+  double sum = 0.0;
+  double motors = 0.0;
+  for (Eigen::Index m = 0; m < blocks.squares.rows(); ++m) {
+    const double samples = blocks.samples.row(m).sum();
+    const double squares = blocks.squares.row(m).sum();
+    if (samples > 0.0 && squares > 0.0) {
+      sum += 0.5 * std::log(squares / samples);
+      motors += 1.0;
+    }
+  }
+  return motors > 0.0 ? sum / motors : 0.0;
+}
+
+/// How far the model's own numbers are from what is stated, squares of deviations.
+double prior_misfit(const FreeModel& free) {
+  double sum = 0.0;
+  for (const FreeValue& value : free.values) {
+    const double moved = value.known ? (value.value - value.stated) / value.spread : 0.0;
+    sum += moved * moved;
+  }
+  return sum;
+}
+
+struct Judgement {
+  TorqueBlocks blocks;     ///< of all trials
+  double log_error = 0.0;  ///< of those that count
+  double penalty = 0.0;
+};
+
+/// Train and held-out trials, cut into blocks.
+class Judge {
+ public:
+  Judge(const model::Model& model, const Data& data, const Cutoffs& cutoffs, const TorqueProblem& train)
+      : train_(train), length_(data.predict.window) {
+    if (data.has(Role::held_out)) {
+      held_out_.emplace_back(model, data, cutoffs, Role::held_out);
+    }
+  }
+
+  Judgement judged(const FreeModel& free, std::size_t further) const {
+    const model::Model model = identified(free);
+    Judgement one;
+    one.blocks = train_.blocks(model, length_);
+    one.penalty = prior_misfit(free) + static_cast<double>(further) * std::log(train_.independent_samples());
+    one.log_error = log_error_of(one.blocks);
+    if (!held_out_.empty()) {
+      const TorqueBlocks unseen = held_out_.front().blocks(model, length_);
+      one.log_error = log_error_of(unseen);
+      one.blocks = joined(one.blocks, unseen);
+    }
+    return one;
+  }
+
+  /// By model the share of the resamples in which it is the best.
+  std::vector<double> shares(const std::vector<Judgement>& models, const Policy& policy) const {
+    std::mt19937 random(policy.seed);
+    const Eigen::Index count = models.front().blocks.squares.cols();
+    std::uniform_int_distribution<Eigen::Index> any(0, count - 1);
+    std::vector<double> shares(models.size());
+    std::vector<Eigen::Index> drawn(static_cast<std::size_t>(count));
+    for (int i = 0; i < policy.resamples; ++i) {
+      std::generate(drawn.begin(), drawn.end(), [&] { return any(random); });
+      std::size_t best = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < models.size(); ++k) {
+        const double one = misfit(models[k].blocks, drawn, train_.independent_share()) + models[k].penalty;
+        if (one < least) {
+          least = one;
+          best = k;
+        }
+      }
+      shares[best] += 1.0 / policy.resamples;
+    }
+    return shares;
+  }
+
+ private:
+  const TorqueProblem& train_;
+  std::vector<TorqueProblem> held_out_;
+  double length_;
+};
+
+/// What a round says of its candidates, in the order of the screen.
+struct Round {
+  std::vector<TorqueShare> shares;
+  std::vector<double> falls;  ///< of the torques' error, relative to the model without any of them
+};
+
+Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy& policy) {
+  std::vector<Judgement> models{judge.judged(screen.own, 0)};
+  const std::size_t count = std::min(kContenders, screen.ranked.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const FreeModel& free = screen.ranked[i].free;
+    models.push_back(judge.judged(free, free.values.size() - screen.own.values.size()));
+  }
+  const std::vector<double> shares = judge.shares(models, policy);
+  Round round;
+  for (std::size_t i = 0; i < count; ++i) {
+    TorqueShare one;
+    one.effect = screen.ranked[i].law;
+    one.at = screen.ranked[i].at;
+    one.share = shares[i + 1];
+    round.shares.push_back(one);
+    round.falls.push_back(1.0 - std::exp(models[i + 1].log_error - models.front().log_error));
+  }
+  return round;
+}
+
+bool is_more_probable(const TorqueShare& a, const TorqueShare& b) { return a.share > b.share; }
+
+}  // namespace
+
+TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                         double cutoff, const Policy& policy, const Progress& progress) {
+  const Cutoffs cutoffs{kMotionCutoff, cutoff};
+  const TorqueProblem problem(model, data, cutoffs);
+  const Judge judge(model, data, cutoffs, problem);
+  TorqueStage stage;
+  stage.cutoff = problem.cutoff();
+  FreeModel own = own_numbers(model);
+  for (int i = 0; i <= policy.most_effects; ++i) {
+    const TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
+    if (i == 0) {
+      stage.own = screen.own;
+    }
+    if (screen.ranked.empty()) {
+      break;
+    }
+    const Round round = judged_round(judge, screen, policy);
+    stage.open = round.shares;
+    std::stable_sort(stage.open.begin(), stage.open.end(), is_more_probable);
+    const auto best = std::min_element(round.shares.begin(), round.shares.end(), is_more_probable);
+    const auto index = static_cast<std::size_t>(best - round.shares.begin());
+    if (best->share < policy.stable || round.falls[index] < policy.material || i == policy.most_effects) {
+      break;
+    }
+    TorqueFinding finding;
+    finding.effect = best->effect;
+    finding.at = best->at;
+    finding.free = screen.ranked[index].free;
+    finding.share = best->share;
+    std::copy_if(stage.open.begin() + 1, stage.open.end(), std::back_inserter(finding.rivals),
+                 [&](const TorqueShare& one) { return one.share >= policy.fair; });
+    own = finding.free;
+    stage.named.push_back(std::move(finding));
+    stage.open.clear();
+  }
+  return stage;
+}
+
+}  // namespace plumbline::validation

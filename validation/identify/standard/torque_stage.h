@@ -1,0 +1,41 @@
+// What the torques name, one effect after another.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "validation/identify/diagnose/diagnose.h"
+#include "validation/identify/standard/torque_screen.h"
+
+namespace plumbline::validation {
+
+/// An effect of a round, and in which share of the resamples it was the best.
+struct TorqueShare : Named {
+  double share = 0.0;
+};
+
+struct TorqueFinding : Named {
+  FreeModel free;  ///< the model with it; it is the last effect
+  double share = 0.0;
+  std::vector<TorqueShare> rivals;  ///< with at least Policy::fair of the resamples
+};
+
+struct TorqueStage {
+  FreeModel own;  ///< the model's own numbers alone
+  std::vector<TorqueFinding> named;
+  std::vector<TorqueShare> open;  ///< of the round after the last finding, most probable first
+  double cutoff = 0.0;            ///< Hz
+};
+
+/// Rounds of torque_screen(). Of its best candidates, each fitted to the train trials, the one is named that
+/// is best in at least Policy::stable of block resamples of train and held-out samples (by the likelihood of
+/// TorqueProblem, what is stated included, with the penalty of torque_screen), with the model's own numbers
+/// alone among them, if by it the error of the torques on the held-out trials (on train, where there are
+/// none; geometric mean of the motors' rms) falls by Policy::material at least. Blocks are as long as the
+/// windows. Throws InputError as TorqueProblem does. Source of the resampling by blocks: Kuensch, The
+/// jackknife and the bootstrap for general stationary observations, Annals of Statistics 17(3), 1989.
+TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
+                         double cutoff, const Policy& policy, const Progress& progress);
+
+}  // namespace plumbline::validation

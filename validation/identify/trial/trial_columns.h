@@ -1,0 +1,33 @@
+// How a trial.yaml names a column of its data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulator/model/model.h"
+#include "validation/identify/trial/trial_file.h"
+
+namespace plumbline::validation {
+
+template <typename Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const Item& item : items) {
+    names.push_back(item.name);
+  }
+  return names;
+}
+
+/// Refuses a name that is no sensor of the model.
+void check_sensor(const model::YamlNode& node, const std::string& name, const model::Model& model);
+
+/// {column, unit, scale, offset}, and keys that the caller reads.
+ColumnUse read_column(const model::YamlNode& node, const std::string& expected_unit, const std::string& owner,
+                      const std::vector<std::string>& further_keys = {});
+
+/// `unwrap`: true for an angle, or after what the column wraps around.
+void read_wrap(const model::YamlNode& node, const std::string& expected_unit, const std::string& owner,
+               ColumnUse& use);
+
+}  // namespace plumbline::validation
