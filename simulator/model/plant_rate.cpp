@@ -7,6 +7,7 @@
 #include "simulator/model/asked_torque.h"
 #include "simulator/model/joint_chain.h"
 #include "simulator/model/plant.h"
+#include "simulator/model/supply.h"
 
 namespace plumbline::model {
 
@@ -70,6 +71,11 @@ void Plant::deliver_torques(const double* x, const double* command, double* xdot
   for (int m = 0; m < motors(); ++m) {
     torque_[m] = actuator_chain(m, x, asked_torque(*this, m, command[m]), xdot);
   }
+  if (!actuators_.back().empty()) {
+    const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+    torque_ *= Supplies(actuators_.back(), motor_lines_, of, x + nz_).share(torque_);
+  }
+  torque_ = supplied(x, torque_);
   if (gear_friction_) {
     find_gear_loads(x);
   }

@@ -160,7 +160,8 @@ std::string effect_picture(const effects::Law& law) {
     return of_force(*force);
   }
   const auto* actuator = dynamic_cast<const ActuatorLaw*>(&law);
-  if (actuator != nullptr && actuator->delay(drawn_values(law).data()) == 0.0) {
+  if (actuator != nullptr && !law.sits_at(effects::Place::world) &&
+      actuator->delay(drawn_values(law).data()) == 0.0) {
     return of_actuator(*actuator);
   }
   const auto* sensor = dynamic_cast<const effects::SensorLaw*>(&law);

@@ -290,7 +290,8 @@ void hide(const Hidden& effect, Rig& rig) {
   if (change_numbers(effect, rig)) {
     return;
   }
-  if (rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
+  const bool is_anywhere = effect.effect == "battery";
+  if (!is_anywhere && rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
     throw std::invalid_argument("the rig has no place " + effect.at + " for " + effect.effect);
   }
   rig.effects.push_back(effect);
