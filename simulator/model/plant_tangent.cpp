@@ -16,6 +16,13 @@ constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over r
 constexpr double kVelocityStep = 1e-4;
 constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 
+/// Is any of these slots' laws, with the parameters that `values` gives, not at its null value?
+template <typename Slots, typename Values>
+bool acts(const Slots& slots, const Values& values) {
+  return std::any_of(slots.begin(), slots.end(),
+                     [&](const auto& slot) { return !slot.law->is_null(values(slot)); });
+}
+
 /// Difference of a rate with and without what `move` does, and undoes when called again.
 template <typename Rate, typename Move>
 Eigen::VectorXd slope_of_rate(const Rate& rate, const Move& move, int states, double step) {
@@ -318,10 +325,9 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
           A.block(slot.state, slot.state, count, count).fullPivLu().solve(behind);
     }
   }
+  const auto of = [&](const ActuatorSlot& one) { return values(one.effect); };
   const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
-  const bool has_supply = std::any_of(actuators_.back().begin(), actuators_.back().end(),
-                                      [&](const auto& one) { return !one.law->is_null(values(one.effect)); });
-  if (has_supply && delay_change == 0.0) {  // what one motor takes, all others lack
+  if (acts(actuators_.back(), of) && delay_change == 0.0) {  // what one motor takes, all others lack
     column =
         slope_of_rate([&](double* xdot) { rate(mean.data(), sample.command, xdot); },
                       [&] { std::swap(values_[static_cast<std::size_t>(slot.effect)], moved); }, nx_, step);
@@ -422,8 +428,8 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
-  if (!actuators_.back().empty()) {
-    const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+  const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+  if (acts(actuators_.back(), of)) {
     const Supplies supplies(actuators_.back(), motor_lines_, of, x + nz_);
     Eigen::VectorXd full(motors());
     for (int m = 0; m < motors(); ++m) {
@@ -448,62 +454,6 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     parameter_tangent(sample, mean.data(), A, parameters[k], steps[column], refresh, B.col(column));
-  }
-}
-
-void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
-  C.setZero(sensors(), 2 * nz_);
-  for (int s = 0; s < sensors(); ++s) {
-    const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
-    C.row(s).segment(rate ? nz_ : 0, nz_) = output_map_.row(s);
-  }
-  Eigen::VectorXd actual = output_map_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + output_offset_;
-  for (int s = 0; s < sensors(); ++s) {
-    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
-    if (chain.empty()) {
-      continue;
-    }
-    double plus = actual[s] + 1e-6;
-    double minus = actual[s] - 1e-6;
-    for (const SensorSlot& slot : chain) {
-      plus = slot.law->reading(plus, values(slot.effect));
-      minus = slot.law->reading(minus, values(slot.effect));
-    }
-    C.row(s) *= (plus - minus) / 2e-6;
-  }
-}
-
-void Plant::output_tangent(const double* x, const std::vector<ParameterId>& parameters,
-                           const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
-  D.setZero(sensors(), static_cast<Eigen::Index>(parameters.size()));
-  for (int s = 0; s < sensors(); ++s) {
-    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
-    if (chain.empty()) {
-      continue;
-    }
-    const double actual =
-        output_offset_[s] + output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const bool here = std::any_of(chain.begin(), chain.end(), [&](const SensorSlot& slot) {
-        return slot.effect == parameters[k].effect;
-      });
-      if (!here) {
-        continue;
-      }
-      const auto read = [&](double change) {
-        double reading = actual;
-        for (const SensorSlot& slot : chain) {
-          effects::Values p = values_[static_cast<std::size_t>(slot.effect)];
-          if (slot.effect == parameters[k].effect) {
-            p[static_cast<std::size_t>(parameters[k].parameter)] += change;
-          }
-          reading = slot.law->reading(reading, p.data());
-        }
-        return reading;
-      };
-      D(s, column) = (read(steps[column]) - read(0.0)) / steps[column];
-    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/effects/supply_law.h"
 #include "tests/effects/rk4.h"
 #include "tests/effects/sampling.h"
 
@@ -88,6 +89,44 @@ TEST(Winding, RunsUpAsTheTwoPolesOfAnArmatureControlledMotorSay) {
         voltage / k * (1.0 + (s2 * std::exp(s1 * time) - s1 * std::exp(s2 * time)) / (s1 - s2));
     EXPECT_NEAR(rk4(rate, {0.0, 0.0}, time, 20000)[0], speed, 1e-7);
   }
+}
+
+/// Share of its voltage that a battery keeps: V = V0 - Ri sum(d i), i = (d V - K v)/R, solved for V by Cramer
+/// of all the circuits together.
+double voltage_share(double v0, double inner, double resistance, double k, const std::vector<double>& duties,
+                     const std::vector<double>& speeds) {
+  double conductance = 1.0 / inner, driven = v0 / inner;  // Kirchhoff at the battery's pole
+  for (std::size_t i = 0; i < duties.size(); ++i) {
+    conductance += duties[i] * duties[i] / resistance;
+    driven += duties[i] * k * speeds[i] / resistance;
+  }
+  return driven / conductance / v0;
+}
+
+TEST(Battery, KeepsTheVoltageThatKirchhoffSays) {
+  const auto law = std::dynamic_pointer_cast<const SupplyLaw>(Catalogue::all().find("battery"));
+  ASSERT_TRUE(law);
+  const double v0 = 24.0, inner = 0.15, resistance = 0.6, k = 0.05;
+  const Values p = values_of(
+      *law, {{"stall_sag", inner / (v0 * v0) * resistance / (k * k)}, {"speed_sag", inner / (v0 * v0)}});
+  const std::vector<std::vector<double>> duties{{0.3, 0.9, -0.5}, {-1.0, 0.2, 0.0}, {0.4, 0.4, 0.4}};
+  const std::vector<double> speeds{120.0, -80.0, 300.0};
+  for (const auto& duty : duties) {
+    std::vector<double> torques;
+    for (const double d : duty) torques.push_back(k / resistance * d * v0);
+    EXPECT_NEAR(law->share(torques.data(), speeds.data(), 3, p.data()),
+                voltage_share(v0, inner, resistance, k, duty, speeds), 1e-13);
+  }
+}
+
+// At rest against its stall: matched to its inner resistance a battery keeps half of its voltage.
+TEST(Battery, KeepsHalfAtTheMatchedLoad) {
+  const auto law = std::dynamic_pointer_cast<const SupplyLaw>(Catalogue::all().find("battery"));
+  const double v0 = 12.0, r = 0.4, k = 0.02, stall = k / r * v0, still = 0.0;
+  const Values p =
+      values_of(*law, {{"stall_sag", r / (v0 * v0) * r / (k * k)}, {"speed_sag", r / (v0 * v0)}});
+  EXPECT_NEAR(law->share(&stall, &still, 1, p.data()), 0.5, 1e-15);
+  EXPECT_EQ(law->share(&stall, &still, 1, law->null_values().data()), 1.0);
 }
 
 // A maker's table is of the output: K1 up to the torque T1, K2 above. At the motor of ratio N the torque is
