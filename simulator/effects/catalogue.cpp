@@ -34,6 +34,7 @@
 #include "simulator/effects/quadratic.h"
 #include "simulator/effects/resonator.h"
 #include "simulator/effects/rotor_inertia.h"
+#include "simulator/effects/sensor_lag.h"
 #include "simulator/effects/slipping_coupling.h"
 #include "simulator/effects/spring.h"
 #include "simulator/effects/stribeck.h"
@@ -97,6 +98,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
       std::make_shared<const EncoderEccentricity>(),
+      std::make_shared<const SensorLag>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

@@ -1,6 +1,7 @@
 // How a Plant's sensors change with its state and its parameters.
 #include <algorithm>
 
+#include "simulator/model/late_reading.h"
 #include "simulator/model/plant.h"
 
 namespace plumbline::model {
@@ -17,8 +18,11 @@ void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
     if (chain.empty()) {
       continue;
     }
-    double plus = actual[s] + 1e-6;
-    double minus = actual[s] - 1e-6;
+    const double lag = lag_of(chain, [&](const SensorSlot& slot) { return values(slot.effect); });
+    C.row(s).tail(nz_) -= lag * output_map_.row(s);
+    const double late = lag * output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x + nz_, nz_));
+    double plus = actual[s] - late + 1e-6;
+    double minus = actual[s] - late - 1e-6;
     for (const SensorSlot& slot : chain) {
       plus = slot.law->reading(plus, values(slot.effect));
       minus = slot.law->reading(minus, values(slot.effect));
@@ -37,6 +41,7 @@ void Plant::output_tangent(const double* x, const std::vector<ParameterId>& para
     }
     const double actual =
         output_offset_[s] + output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
+    const double speed = output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x + nz_, nz_));
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const bool here = std::any_of(chain.begin(), chain.end(), [&](const SensorSlot& slot) {
@@ -46,13 +51,14 @@ void Plant::output_tangent(const double* x, const std::vector<ParameterId>& para
         continue;
       }
       const auto read = [&](double change) {
-        double reading = actual;
+        effects::Values moved = values_[static_cast<std::size_t>(parameters[k].effect)];
+        moved[static_cast<std::size_t>(parameters[k].parameter)] += change;
+        const auto of = [&](const SensorSlot& slot) {
+          return slot.effect == parameters[k].effect ? moved.data() : values(slot.effect);
+        };
+        double reading = actual - lag_of(chain, of) * speed;
         for (const SensorSlot& slot : chain) {
-          effects::Values p = values_[static_cast<std::size_t>(slot.effect)];
-          if (slot.effect == parameters[k].effect) {
-            p[static_cast<std::size_t>(parameters[k].parameter)] += change;
-          }
-          reading = slot.law->reading(reading, p.data());
+          reading = slot.law->reading(reading, of(slot));
         }
         return reading;
       };

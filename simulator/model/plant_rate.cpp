@@ -6,6 +6,7 @@
 
 #include "simulator/model/asked_torque.h"
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/late_reading.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/supply.h"
 
@@ -228,7 +229,12 @@ void Plant::outputs(const double* x, double* y) {
     for (int i = 0; i < nz_; ++i) {
       reading += output_map_(s, i) * seen[i];
     }
-    for (const SensorSlot& slot : sensor_effects_[static_cast<std::size_t>(s)]) {
+    const std::vector<SensorSlot>& chain = sensor_effects_[static_cast<std::size_t>(s)];
+    if (!chain.empty()) {
+      const double lag = lag_of(chain, [&](const SensorSlot& slot) { return values(slot.effect); });
+      reading -= lag * output_map_.row(s).dot(Vector(x + nz_, nz_));
+    }
+    for (const SensorSlot& slot : chain) {
       reading = slot.law->reading(reading, values(slot.effect));
     }
     y[s] = reading;

@@ -142,6 +142,10 @@ const std::vector<Row>& leg_bench_rows() {
       {"added_mass", "shin", "mass=8.4e-3|0.072"},
       {"com_shift", "shin", "x=1.5e-3|0.013,z=-1.5e-3|-0.013"},
       {"payload", "shin", "mass=8.4e-3|0.072,x=0.02,y=0,z=-0.2"},
+      {"sensor_lag", "mLA", "lag=3e-4|2.5e-3"},
+      {"sensor_lag", "mLS", "lag=2e-4|1.7e-3"},
+      {"sensor_lag", "thigh", "lag=2e-4|1.7e-3"},
+      {"sensor_lag", "knee", "lag=8e-4|7e-3"},
       {"encoder_offset", "mLA", "offset=7e-3|0.06"},
       {"encoder_scale", "mLA", "scale=1+1.5e-3|0.013"},
       {"encoder_offset", "mLS", "offset=9.1e-3|0.079"},
@@ -183,6 +187,7 @@ const std::vector<Row>& pendulum_rows() {
        "stiffness_soft=7|1,stiffness_stiff=17|2.5,windup=2e-3|0.015,damping=5e-3"},
       {"slipping_coupling", "shoulder", "limit=0.1+0.05|0.035,stiffness=20,damping=0.01"},
       {"com_shift", "arm", "x=5.5e-5|4.7e-4,z=-5.5e-5|-4.7e-4"},
+      {"sensor_lag", "shoulder", "lag=3e-4|2.5e-3"},
       {"encoder_offset", "drive", "offset=8.3e-3|0.074"},
       {"encoder_scale", "shoulder", "scale=1+1.1e-3|9.8e-3"},
   };

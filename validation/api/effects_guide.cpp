@@ -81,6 +81,8 @@ const std::vector<EffectGuide>& effects_guide() {
       {"encoder_offset", "sensors", "gravity_tilt, backlash", "a stop or a mark whose position is known"},
       {"encoder_eccentricity", "sensors", "encoder_scale, cogging",
        "turn slowly and evenly through a whole turn"},
+      {"sensor_lag", "sensors", "command_delay, actuator_lag, viscous",
+       "pass one place at two speeds, both ways: the readings differ by twice lag and speed"},
       {"encoder_scale", "sensors", "a ratio, cable_stretch", "two marks whose distance is known"},
       {"gravity_tilt", "surroundings", "com_shift, encoder_offset",
        "stand still at many positions; a spirit level"},

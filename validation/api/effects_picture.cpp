@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/effects/late_sensor_law.h"
 #include "simulator/effects/parameters.h"
 
 namespace plumbline::api {
@@ -165,7 +166,8 @@ std::string effect_picture(const effects::Law& law) {
     return of_actuator(*actuator);
   }
   const auto* sensor = dynamic_cast<const effects::SensorLaw*>(&law);
-  return sensor != nullptr ? of_sensor(*sensor) : "";
+  const bool is_late = dynamic_cast<const effects::LateSensorLaw*>(&law) != nullptr;
+  return sensor != nullptr && !is_late ? of_sensor(*sensor) : "";
 }
 
 }  // namespace plumbline::api

@@ -127,11 +127,12 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 26> kOthers{"torque_bias",
+constexpr std::array<const char*, 27> kOthers{"torque_bias",
                                               "torque_ripple",
                                               "winding",
                                               "battery",
                                               "harmonic_drive",
+                                              "sensor_lag",
                                               "torque_saturation",
                                               "voltage_limit",
                                               "thermal_motor",

@@ -194,6 +194,10 @@ bool change_sensor(const Hidden& e, Sensor& sensor) {
     sensor.phase = std::atan2(e["sine"], e["cosine"]);
     return true;
   }
+  if (e.effect == "sensor_lag") {
+    sensor.late += e["lag"];
+    return true;
+  }
   if (e.effect == "encoder_scale") {
     sensor.scale *= e["scale"];
     return true;
