@@ -65,7 +65,7 @@ constexpr const char* kHead =
     "force is drawn over position and velocity, along a sine, under a\ntorque that swings with it; an "
     "actuator's "
     "torque over its command and in time; a sensor's reading and error over the true value.\nInertias, "
-    "delays, lags, the battery and "
+    "delays, the battery and "
     "the ground have no picture. In equations `x` and `v` are position and velocity of the place, `u` is "
     "the\n"
     "command in torque units, `load` the torque that the motor delivers, or that its gear passes on.\n\n"
