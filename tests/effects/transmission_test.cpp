@@ -210,5 +210,33 @@ TEST(SlippingCoupling, LosesItsLimitTimesTheSlip) {
   EXPECT_NEAR(law->dissipated_power({9.0, 0.4, 0.0}, &full, p.data()), 2.0 * 0.4, 1e-6);
 }
 
+// A link (inertia J, m l of its weight) on a mounting (M in all, k, c): J q" + m l b" = u, M b" + m l q" + c
+// b'
+// + k b = 0, from Lagrange. The same q by a resonator of m^2 l^2/M at a link that is lighter by as much.
+TEST(Resonator, IsAMountingThatYieldsAtALighterLink) {
+  const auto law = force_named("resonator");
+  const double J = 0.2, ml = 0.5, M = 4.0, k = 3000.0, c = 8.0;
+  const double inertia = ml * ml / M, frequency = std::sqrt(k / M) / kTurn;
+  const Values p = values_of(
+      *law, {{"inertia", inertia}, {"frequency", frequency}, {"damping_ratio", 0.5 * c / std::sqrt(k * M)}});
+  const auto torque = [](double time) { return 3.0 * std::sin(20.0 * time) + std::sin(37.0 * time); };
+  const Rate yielding = [&](const State& x) {  // time, q, b, q', b'
+    const double u = torque(x[0]), base = -c * x[4] - k * x[2];
+    const double determinant = J * M - ml * ml;
+    return State{1.0, x[3], x[4], (M * u - ml * base) / determinant, (J * base - ml * u) / determinant};
+  };
+  const Rate ridden = [&](const State& x) {  // time, q, q', stretch, speed
+    const Motion m{x[1], x[2], 0.0};
+    State r{1.0, x[2], (torque(x[0]) + law->force(m, &x[3], p.data())) / (J - inertia), 0.0, 0.0};
+    law->state_rate(m, &x[3], p.data(), &r[3]);
+    return r;
+  };
+  for (const double time : {0.1, 0.5, 1.0}) {
+    const double q = rk4(yielding, {0.0, 0.0, 0.0, 0.0, 0.0}, time, 20000)[1];
+    EXPECT_NEAR(rk4(ridden, {0.0, 0.0, 0.0, 0.0, 0.0}, time, 20000)[1], q, 1e-8);
+    EXPECT_GT(std::abs(q), 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::effects
