@@ -76,7 +76,6 @@ void Plant::deliver_torques(const double* x, const double* command, double* xdot
     const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
     torque_ *= Supplies(actuators_.back(), motor_lines_, of, x + nz_).share(torque_);
   }
-  torque_ = supplied(x, torque_);
   if (gear_friction_) {
     find_gear_loads(x);
   }
