@@ -17,8 +17,8 @@ const Declaration& Battery::declaration() const {
       "a battery with an inner resistance: all motors lose voltage by what all of them draw",
       "torque of every motor = share*u; share = (1 + speed_sag*sum(u*v))/(1 + stall_sag*sum(u^2)), sums over "
       "all motors",
-      "Linden and Reddy, Handbook of Batteries, 3rd edition, 2002, section 3.2 (ohmic drop); Hughes and "
-      "Drury, Electric Motors and Drives, 4th edition, 2013, section 3.4 (armature circuit)",
+      "Linden and Reddy, Handbook of Batteries, 3rd edition, 2002, chapter 3 (ohmic drop); Hughes and "
+      "Drury, Electric Motors and Drives, 4th edition, 2013, chapter 3 (armature circuit)",
       {Place::world},
       {non_negative("stall_sag", "1/({force})^2",
                     "share of the voltage lost per square of torque at rest, of motors alike"),

@@ -17,8 +17,8 @@ namespace plumbline::effects {
 /// takes back what a motor that brakes gives. Behind a current controller the torque stays until the
 /// voltage is used up: voltage_limit.
 /// Null when both are 0. For one motor at rest it is torque_saturation (sag = 2 stall_sag, to first order).
-/// Source: Linden and Reddy, Handbook of Batteries (3rd edition, 2002), section 3.2 (ohmic drop); Hughes and
-/// Drury, Electric Motors and Drives (4th edition, 2013), section 3.4 (armature circuit).
+/// Source: Linden and Reddy, Handbook of Batteries (3rd edition, 2002), chapter 3 (ohmic drop); Hughes and
+/// Drury, Electric Motors and Drives (4th edition, 2013), chapter 3 (armature circuit).
 class Battery final : public SupplyLaw {
  public:
   const Declaration& declaration() const override;

@@ -16,7 +16,7 @@ const Declaration& SensorLag::declaration() const {
       "sensor_lag",
       "a channel that is late: a filter, a bus, another clock",
       "reading = actual - lag*actual_rate",
-      "Oppenheim and Schafer, Discrete-Time Signal Processing, 3rd edition, 2010, section 5.1.2 (group "
+      "Oppenheim and Schafer, Discrete-Time Signal Processing, 3rd edition, 2010, section 5.1.1 (group "
       "delay)",
       {Place::sensor},
       {any("lag", "s", "by which the channel is late; negative: ahead of the others")},

@@ -11,7 +11,7 @@ namespace plumbline::effects {
 /// To first order in the lag, what a low-pass filter of group delay `lag` shows, or a channel that is sampled
 /// so much earlier than the others: the error is lag^2/2 times the acceleration. Below 0 the channel is ahead
 /// of the others. All channels late alike are a command_delay of all motors. Null when lag = 0.
-/// Source: Oppenheim and Schafer, Discrete-Time Signal Processing (3rd edition, 2010), section 5.1.2 (group
+/// Source: Oppenheim and Schafer, Discrete-Time Signal Processing (3rd edition, 2010), section 5.1.1 (group
 /// delay).
 class SensorLag final : public LateSensorLaw {
  public:

@@ -16,7 +16,7 @@ const Declaration& Winding::declaration() const {
       "winding",
       "a winding under a voltage: its inductance delays the torque, and the back EMF with it",
       "f = delivered - load; delivered_rate = (load - slope*v - delivered)/time_constant",
-      "Fitzgerald, Kingsley and Umans, Electric Machinery, 6th edition, 2003, section 11.1 (armature-"
+      "Fitzgerald, Kingsley and Umans, Electric Machinery, 6th edition, 2003, chapter 11 (armature-"
       "controlled motor)",
       {Place::motor},
       {non_negative("time_constant", "s", "inductance over resistance, L/R"),

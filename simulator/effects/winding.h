@@ -15,8 +15,8 @@ namespace plumbline::effects {
 /// Null when time_constant = 0: then the back EMF is viscous friction and has that name. Without a slope it
 /// is actuator_lag. A short one is about actuator_lag, viscous and a rotor lighter by slope time_constant.
 /// Power comes from the supply and goes back to it: loss in the copper and field are the supply's account.
-/// Source: Fitzgerald, Kingsley and Umans, Electric Machinery (6th edition, 2003), section 11.1 (transfer
-/// function of an armature-controlled motor).
+/// Source: Fitzgerald, Kingsley and Umans, Electric Machinery (6th edition, 2003), chapter 11
+/// (armature-controlled motor).
 class Winding final : public DissipativeLaw {
  public:
   const Declaration& declaration() const override;

@@ -66,7 +66,7 @@ TEST(Winding, RisesWithLOverRWhileTheRotorIsHeld) {
   }
 }
 
-// The armature-controlled motor (Fitzgerald, Kingsley and Umans, section 11.1): J v' = K i, L i' + R i + K v
+// The armature-controlled motor (Fitzgerald, Kingsley and Umans, chapter 11): J v' = K i, L i' + R i + K v
 // = U. Poles s1, s2 of L J s^2 + R J s + K^2: v = U/K (1 + (s2 exp(s1 t) - s1 exp(s2 t))/(s1 - s2)).
 TEST(Winding, RunsUpAsTheTwoPolesOfAnArmatureControlledMotorSay) {
   const auto law = force_named("winding");
