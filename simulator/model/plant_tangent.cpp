@@ -18,7 +18,7 @@ constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 
 /// Is any of these slots' laws, with the parameters that `values` gives, not at its null value?
 template <typename Slots, typename Values>
-bool acts(const Slots& slots, const Values& values) {
+bool any_acts(const Slots& slots, const Values& values) {
   return std::any_of(slots.begin(), slots.end(),
                      [&](const auto& slot) { return !slot.law->is_null(values(slot)); });
 }
@@ -327,7 +327,7 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
   }
   const auto of = [&](const ActuatorSlot& one) { return values(one.effect); };
   const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
-  if (acts(actuators_.back(), of) && delay_change == 0.0) {  // what one motor takes, all others lack
+  if (any_acts(actuators_.back(), of) && delay_change == 0.0) {  // what one motor takes, all others lack
     column =
         slope_of_rate([&](double* xdot) { rate(mean.data(), sample.command, xdot); },
                       [&] { std::swap(values_[static_cast<std::size_t>(slot.effect)], moved); }, nx_, step);
@@ -429,7 +429,7 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
   const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
-  if (acts(actuators_.back(), of)) {
+  if (any_acts(actuators_.back(), of)) {
     const Supplies supplies(actuators_.back(), motor_lines_, of, x + nz_);
     Eigen::VectorXd full(motors());
     for (int m = 0; m < motors(); ++m) {
