@@ -31,8 +31,12 @@ Values drawn_values(const effects::Law& law) {
   constexpr double kLess = 0.6;
   const effects::Scales scales{1.0, 0.7, 1.0, 1.0, 0.3, 0.0};
   const std::vector<Values> starts = law.starts(scales);
-  Values values = law.sits_at(effects::Place::ratio) ? starts.back() : starts.front();
   const Values typical = law.typical(scales);
+  const bool is_ratio = law.sits_at(effects::Place::ratio);
+  Values values = is_ratio ? starts.back() : starts.front();
+  if (is_ratio && law.state_count() > 0) {
+    values = typical;  // a coupling: where a search starts it is too stiff for these steps
+  }
   double share = 1.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const effects::Parameter& parameter = law.declaration().parameters[i];
