@@ -80,7 +80,7 @@ const std::vector<Row>& hopper_rows() {
        "magnet_sag=0,copper_sag=5e-5|2e-4|5e-4,heating=1,winding_time=20,housing_time=300,share=0.1,copper=3."
        "9e-3,ambient=293.15"},
       {"torque_ripple", "drive", "sine=6e-4|1.6e-3|5e-3,cosine=4e-4|1e-3|3e-3,cycles=12"},
-      {"winding", "drive", "time_constant=3.6e-5|1e-4|3e-4,slope=2e-4|4e-4|8e-4"},
+      {"winding", "drive", "time_constant=3.6e-5|1e-4|3e-4,slope=1e-5|2e-5|4e-5"},
       {"harmonic_drive", "carriage",
        "stiffness_soft=6e2|2.2e2|70,stiffness_stiff=1.5e3|5.5e2|175,windup=1e-3|3e-3|9e-3,damping=0.02"},
       {"slipping_coupling", "carriage", "limit=3+1.5|1.2|0.9,stiffness=2000,damping=0.05"},
