@@ -8,6 +8,7 @@
 #include "simulator/effects/added_mass.h"
 #include "simulator/effects/asymmetric_spring.h"
 #include "simulator/effects/backlash.h"
+#include "simulator/effects/battery.h"
 #include "simulator/effects/boom.h"
 #include "simulator/effects/cable_stretch.h"
 #include "simulator/effects/cogging.h"
@@ -24,6 +25,7 @@
 #include "simulator/effects/gravity_tilt.h"
 #include "simulator/effects/hard_stop.h"
 #include "simulator/effects/hardening.h"
+#include "simulator/effects/harmonic_drive.h"
 #include "simulator/effects/hysteresis.h"
 #include "simulator/effects/load_friction.h"
 #include "simulator/effects/lugre.h"
@@ -32,17 +34,21 @@
 #include "simulator/effects/quadratic.h"
 #include "simulator/effects/resonator.h"
 #include "simulator/effects/rotor_inertia.h"
+#include "simulator/effects/sensor_lag.h"
+#include "simulator/effects/slipping_coupling.h"
 #include "simulator/effects/spring.h"
 #include "simulator/effects/stribeck.h"
 #include "simulator/effects/switch_lateness.h"
 #include "simulator/effects/thermal_motor.h"
 #include "simulator/effects/torque_bias.h"
 #include "simulator/effects/torque_constant_error.h"
+#include "simulator/effects/torque_ripple.h"
 #include "simulator/effects/torque_saturation.h"
 #include "simulator/effects/unilateral_spring.h"
 #include "simulator/effects/viscous.h"
 #include "simulator/effects/viscous_directional.h"
 #include "simulator/effects/voltage_limit.h"
+#include "simulator/effects/winding.h"
 
 namespace plumbline::effects {
 
@@ -62,6 +68,8 @@ Catalogue Catalogue::all() {
       std::make_shared<const Hysteresis>(),
       std::make_shared<const Backlash>(),
       std::make_shared<const CableStretch>(),
+      std::make_shared<const HarmonicDrive>(),
+      std::make_shared<const SlippingCoupling>(),
       std::make_shared<const Spring>(),
       std::make_shared<const Preload>(),
       std::make_shared<const Hardening>(),
@@ -70,13 +78,16 @@ Catalogue Catalogue::all() {
       std::make_shared<const HardStop>(),
       std::make_shared<const Resonator>(),
       std::make_shared<const Cogging>(),
+      std::make_shared<const TorqueRipple>(),
       std::make_shared<const TorqueBias>(),
       std::make_shared<const TorqueConstantError>(),
       std::make_shared<const TorqueSaturation>(),
       std::make_shared<const VoltageLimit>(),
       std::make_shared<const ThermalMotor>(),
+      std::make_shared<const Battery>(),
       std::make_shared<const ActuatorLag>(),
       std::make_shared<const CurrentLoop>(),
+      std::make_shared<const Winding>(),
       std::make_shared<const CommandDelay>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
@@ -87,6 +98,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const EncoderOffset>(),
       std::make_shared<const EncoderScale>(),
       std::make_shared<const EncoderEccentricity>(),
+      std::make_shared<const SensorLag>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

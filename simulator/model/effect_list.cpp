@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/effects/supply_law.h"
 #include "simulator/model/places.h"
 #include "simulator/model/quantity.h"
 #include "simulator/trace/number_text.h"
@@ -107,6 +108,9 @@ EffectUse read_effect(const YamlNode& node, const effects::Catalogue& catalogue,
   use.at = at.text();
   if (!find_place(model, *use.law, use.at)) {
     at.refuse(quote(use.at), expected_place(model, *use.law, use.at));
+  }
+  if (dynamic_cast<const effects::SupplyLaw*>(use.law.get()) != nullptr && model.motors.empty()) {
+    name.refuse(quote(name.text()) + " of a robot without a motor", "a motor that draws on it");
   }
   use.line = node.line();
   use.values = default_values(model, *use.law, use.at, use.line);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "simulator/model/kinds.h"
 #include "simulator/model/quantity.h"
@@ -15,12 +16,13 @@ using Sign = QuantityRule::Sign;
 
 struct Winding {
   Quantity resistance, torque_constant, back_emf;
+  std::optional<Quantity> inductance;
 };
 
 double share(const Quantity& quantity) { return quantity.uncertainty / quantity.value; }
 
 Winding winding_of(const YamlNode& node, bool angular) {
-  node.allow_keys({"resistance", "torque_constant", "back_emf"});
+  node.allow_keys({"resistance", "torque_constant", "back_emf", "inductance"});
   Winding winding;
   winding.resistance = read_quantity(node.at("resistance"), {"ohm", Sign::positive, false, {}});
   winding.torque_constant =
@@ -40,6 +42,9 @@ Winding winding_of(const YamlNode& node, bool angular) {
                         force_unit(angular) + "/A",
                     "about the same number in SI, from half to twice (is one of them per 1000 rpm?)");
     }
+  }
+  if (const auto given = node.find("inductance")) {
+    winding.inductance = read_quantity(*given, {"H", Sign::positive, false, {}});
   }
   return winding;
 }
@@ -112,17 +117,24 @@ void add_back_emf(const YamlNode& motors, const effects::Catalogue& catalogue, M
     }
     const Winding winding = winding_of(*node, model.find_motor(name)->angular);
     const double damping = winding.torque_constant.value * winding.back_emf.value / winding.resistance.value;
-    if (!(damping > 0.0)) {
+    if (!(damping > 0.0) && !winding.inductance) {
       continue;
     }
-    EffectUse use = effect_of(model, catalogue, "viscous", name);
+    const bool delays = winding.inductance.has_value();
+    EffectUse use = effect_of(model, catalogue, delays ? "winding" : "viscous", name);
     use.line = node->line();
     const double shares =
         std::hypot(share(winding.torque_constant), share(winding.back_emf), share(winding.resistance));
-    set(use, "damping", damping, damping * shares,
+    set(use, delays ? "slope" : "damping", damping, damping > 0.0 ? damping * shares : 0.0,
         "back EMF of the winding: " + winding.back_emf.source + "; " + winding.resistance.source);
+    if (delays) {
+      const double time_constant = winding.inductance->value / winding.resistance.value;
+      set(use, "time_constant", time_constant,
+          time_constant * std::hypot(share(*winding.inductance), share(winding.resistance)),
+          "inductance by resistance: " + winding.inductance->source + "; " + winding.resistance.source);
+    }
     for (const EffectUse& other : model.effects) {
-      if (other.at == name && other.law->declaration().name == "viscous") {
+      if (!delays && other.at == name && other.law->declaration().name == "viscous") {
         node->refuse("a winding at motor " + name + ", which has the effect viscous, too",
                      "the friction of its bearings at the coordinate, or no winding: the back EMF is viscous "
                      "friction");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "simulator/effects/supply_law.h"
 #include "simulator/model/body_change.h"
 #include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
@@ -233,7 +234,8 @@ void Plant::place_force(const effects::ForceLaw& law, int effect, int& next_stat
 }
 
 void Plant::place_effects() {
-  actuators_.resize(static_cast<std::size_t>(motors()));
+  // Behind the motors' own chains one of what they all hang on: supplies.
+  actuators_.resize(static_cast<std::size_t>(motors()) + 1);
   sensor_effects_.resize(static_cast<std::size_t>(sensors()));
   int next_state = 2 * nz_;
   std::vector<double> g;
@@ -249,6 +251,9 @@ void Plant::place_effects() {
         if (model_.motors[m].name == use.at) {
           actuators_[m].push_back({actuator, e, has_state ? next_state : -1});
         }
+      }
+      if (dynamic_cast<const effects::SupplyLaw*>(law) != nullptr) {
+        actuators_.back().push_back({actuator, e, -1});
       }
       next_state += has_state ? law->state_count() : 0;
     } else if (const auto* structure = dynamic_cast<const effects::StructureLaw*>(law)) {

@@ -100,7 +100,12 @@ void Plant::carry_states(const double* from, const double* to, const double* com
     };
     const auto [q0, v0] = along(from);
     const auto [q1, v1] = along(to);
-    const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), 0.0};
+    // What a winding follows. What a gear passes on needs the acceleration: no law with states feels it.
+    const double load =
+        slot.at_motor
+            ? actuator_chain(slot.motor, x, asked_torque(*this, slot.motor, command[slot.motor]), nullptr)
+            : 0.0;
+    const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), load};
     step_states<Few>(
         [&](const double* s, double* rate) { slot.law->state_rate(middle, s, values(slot.effect), rate); }, h,
         slot.law->state_count(), x + slot.state);
@@ -120,12 +125,24 @@ void Plant::carry_states(const double* from, const double* to, const double* com
   }
 }
 
+// A force's states are 0, but for those that follow the load (a winding's torque): where they stay under it.
 void Plant::settle(const double* command, double* x) const {
-  for (const ForceSlot& slot : forces_) {
-    for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
-      x[slot.state + k] = 0.0;
+  constexpr double kLong = 1e4;  // s
+  const auto settle_force = [&](const ForceSlot& slot, double load) {
+    const int count = slot.law->state_count();
+    const auto rate_of = [&](double under, const double* s, double* rate) {
+      slot.law->state_rate({0.0, 0.0, under}, s, values(slot.effect), rate);
+    };
+    Few free(count);
+    Few loaded(count);
+    std::fill_n(x + slot.state, count, 0.0);
+    rate_of(0.0, x + slot.state, free.data());
+    rate_of(load, x + slot.state, loaded.data());
+    if (free != loaded) {
+      step_states<Few>([&](const double* s, double* rate) { rate_of(load, s, rate); }, kLong, count,
+                       x + slot.state);
     }
-  }
+  };
   for (int m = 0; m < motors(); ++m) {
     double torque = asked_torque(*this, m, command[m]);
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
@@ -135,6 +152,16 @@ void Plant::settle(const double* command, double* x) const {
       if (slot.state >= 0 || slot.law->state_count() == 0) {
         torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
       }
+    }
+    for (const ForceSlot& slot : forces_) {
+      if (slot.state >= 0 && slot.at_motor && slot.motor == m) {
+        settle_force(slot, torque);
+      }
+    }
+  }
+  for (const ForceSlot& slot : forces_) {
+    if (slot.state >= 0 && !slot.at_motor) {
+      std::fill_n(x + slot.state, slot.law->state_count(), 0.0);
     }
   }
 }

@@ -6,7 +6,9 @@
 
 #include "simulator/model/asked_torque.h"
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/late_reading.h"
 #include "simulator/model/plant.h"
+#include "simulator/model/supply.h"
 
 namespace plumbline::model {
 
@@ -69,6 +71,10 @@ void Plant::deliver_torques(const double* x, const double* command, double* xdot
   torque_.resize(motors());
   for (int m = 0; m < motors(); ++m) {
     torque_[m] = actuator_chain(m, x, asked_torque(*this, m, command[m]), xdot);
+  }
+  if (!actuators_.back().empty()) {
+    const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+    torque_ *= Supplies(actuators_.back(), motor_lines_, of, x + nz_).share(torque_);
   }
   if (gear_friction_) {
     find_gear_loads(x);
@@ -222,7 +228,12 @@ void Plant::outputs(const double* x, double* y) {
     for (int i = 0; i < nz_; ++i) {
       reading += output_map_(s, i) * seen[i];
     }
-    for (const SensorSlot& slot : sensor_effects_[static_cast<std::size_t>(s)]) {
+    const std::vector<SensorSlot>& chain = sensor_effects_[static_cast<std::size_t>(s)];
+    if (!chain.empty()) {
+      const double lag = lag_of(chain, [&](const SensorSlot& slot) { return values(slot.effect); });
+      reading -= lag * output_map_.row(s).dot(Vector(x + nz_, nz_));
+    }
+    for (const SensorSlot& slot : chain) {
       reading = slot.law->reading(reading, values(slot.effect));
     }
     y[s] = reading;

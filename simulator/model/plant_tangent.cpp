@@ -7,6 +7,7 @@
 #include "simulator/effects/parameters.h"
 #include "simulator/model/asked_torque.h"
 #include "simulator/model/plant.h"
+#include "simulator/model/supply.h"
 
 namespace plumbline::model {
 namespace {
@@ -14,6 +15,25 @@ namespace {
 constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
 constexpr double kVelocityStep = 1e-4;
 constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
+
+/// Is any of these slots' laws, with the parameters that `values` gives, not at its null value?
+template <typename Slots, typename Values>
+bool any_acts(const Slots& slots, const Values& values) {
+  return std::any_of(slots.begin(), slots.end(),
+                     [&](const auto& slot) { return !slot.law->is_null(values(slot)); });
+}
+
+/// Difference of a rate with and without what `move` does, and undoes when called again.
+template <typename Rate, typename Move>
+Eigen::VectorXd slope_of_rate(const Rate& rate, const Move& move, int states, double step) {
+  Eigen::VectorXd there = Eigen::VectorXd::Zero(states);
+  Eigen::VectorXd here = there;
+  move();
+  rate(there.data());
+  move();
+  rate(here.data());
+  return (there - here) / step;
+}
 
 }  // namespace
 
@@ -305,13 +325,22 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
           A.block(slot.state, slot.state, count, count).fullPivLu().solve(behind);
     }
   }
-  const double before = actuator_chain(motor, mean.data(), here, now.data());
+  const auto of = [&](const ActuatorSlot& one) { return values(one.effect); };
   const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
+  if (any_acts(actuators_.back(), of) && delay_change == 0.0) {  // what one motor takes, all others lack
+    column =
+        slope_of_rate([&](double* xdot) { rate(mean.data(), sample.command, xdot); },
+                      [&] { std::swap(values_[static_cast<std::size_t>(slot.effect)], moved); }, nx_, step);
+    return;
+  }
+  const double before = actuator_chain(motor, mean.data(), here, now.data());
   const double delayed = here + gain * sample.command_slope[motor] * delay_change;
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
   const double after = actuator_chain(motor, mean.data(), delayed, up.data());
   std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
-  // Laws that feel what the motor delivers take their share of it: behind a voltage limit all.
+  column = (up - now) / step;
+  // Laws that feel what the motor delivers take their share of it: behind a voltage limit all. Those with
+  // states (a winding) follow it.
   double acts = after - before;
   for (const ForceSlot& law : forces_) {
     if (law.active && law.at_motor && law.motor == motor && !law.law->feels_gear_load()) {
@@ -319,11 +348,18 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
       effects::Motion at = motion(law, x);
       at.load = before;
       acts -= law.law->force(at, s, values(law.effect));
+      if (s != nullptr) {
+        law.law->state_rate(at, s, values(law.effect), now.data() + law.state);
+      }
       at.load = after;
       acts += law.law->force(at, s, values(law.effect));
+      if (s != nullptr) {
+        law.law->state_rate(at, s, values(law.effect), up.data() + law.state);
+        column.segment(law.state, law.law->state_count()) =
+            (up - now).segment(law.state, law.law->state_count()) / step;
+      }
     }
   }
-  column = (up - now) / step;
   column.segment(nz_, nz_) +=
       factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * (acts / step);
   if (delay_change != 0.0) {
@@ -351,6 +387,14 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
         actuator_parameter_tangent(m, slot, sample, x, A, moved, step, column);
         return;
       }
+    }
+  }
+  for (const ActuatorSlot& slot : actuators_.back()) {
+    if (slot.effect == id.effect) {
+      column =
+          slope_of_rate([&](double* xdot) { rate(x, sample.command, xdot); },
+                        [&] { std::swap(values_[static_cast<std::size_t>(id.effect)], moved); }, nx_, step);
+      return;
     }
   }
   for (const StructureSlot& slot : structures_) {
@@ -384,6 +428,15 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
+  const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+  if (any_acts(actuators_.back(), of)) {
+    const Supplies supplies(actuators_.back(), motor_lines_, of, x + nz_);
+    Eigen::VectorXd full(motors());
+    for (int m = 0; m < motors(); ++m) {
+      full[m] = actuator_chain(m, x, asked_torque(*this, m, sample.command[m]), nullptr);
+    }
+    A.block(nz_, nz_, nz_, nz_) += factor_.solve(supplies.force_of(full)) * supplies.slope(full);
+  }
   // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change. Behind a
   // jump a stiff law may bring the velocity to its end within a hundredth of the sample, as no cubic does:
   // its mean velocity is then not the change of position over the time.
@@ -401,62 +454,6 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     parameter_tangent(sample, mean.data(), A, parameters[k], steps[column], refresh, B.col(column));
-  }
-}
-
-void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
-  C.setZero(sensors(), 2 * nz_);
-  for (int s = 0; s < sensors(); ++s) {
-    const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
-    C.row(s).segment(rate ? nz_ : 0, nz_) = output_map_.row(s);
-  }
-  Eigen::VectorXd actual = output_map_ * Eigen::Map<const Eigen::VectorXd>(x, nz_) + output_offset_;
-  for (int s = 0; s < sensors(); ++s) {
-    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
-    if (chain.empty()) {
-      continue;
-    }
-    double plus = actual[s] + 1e-6;
-    double minus = actual[s] - 1e-6;
-    for (const SensorSlot& slot : chain) {
-      plus = slot.law->reading(plus, values(slot.effect));
-      minus = slot.law->reading(minus, values(slot.effect));
-    }
-    C.row(s) *= (plus - minus) / 2e-6;
-  }
-}
-
-void Plant::output_tangent(const double* x, const std::vector<ParameterId>& parameters,
-                           const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
-  D.setZero(sensors(), static_cast<Eigen::Index>(parameters.size()));
-  for (int s = 0; s < sensors(); ++s) {
-    const auto& chain = sensor_effects_[static_cast<std::size_t>(s)];
-    if (chain.empty()) {
-      continue;
-    }
-    const double actual =
-        output_offset_[s] + output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const bool here = std::any_of(chain.begin(), chain.end(), [&](const SensorSlot& slot) {
-        return slot.effect == parameters[k].effect;
-      });
-      if (!here) {
-        continue;
-      }
-      const auto read = [&](double change) {
-        double reading = actual;
-        for (const SensorSlot& slot : chain) {
-          effects::Values p = values_[static_cast<std::size_t>(slot.effect)];
-          if (slot.effect == parameters[k].effect) {
-            p[static_cast<std::size_t>(parameters[k].parameter)] += change;
-          }
-          reading = slot.law->reading(reading, p.data());
-        }
-        return reading;
-      };
-      D(s, column) = (read(steps[column]) - read(0.0)) / steps[column];
-    }
   }
 }
 

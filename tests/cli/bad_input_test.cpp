@@ -8,6 +8,17 @@
 namespace plumbline::test {
 namespace {
 
+constexpr const char* kMotorless = R"(plumbline: model/1
+robot: swing
+skeleton: pendulum_drive.urdf
+coordinates:
+  shoulder: {of: {shoulder: 1}}
+effects:
+  - {effect: battery, at: world}
+sensors:
+  shoulder: {measures: shoulder, counts_per_turn: 16384, gear: 1, noise: {value: 0, unit: rad, assumed: none}, source: s}
+)";
+
 TEST_P(BadInputs, AreRefusedInOneLineAndNothingIsWritten) {
   const BadInput& bad = GetParam();
   make(bad.edits);
@@ -254,6 +265,10 @@ INSTANTIATE_TEST_SUITE_P(
               "sensors:"}},
             kCheckModel,
             {"robot/model.yaml:", "found -1 (SI), expected a value from 0"}},
+        BadInput{"battery_without_a_motor",
+                 {{kModel, "", kMotorless}},
+                 kCheckModel,
+                 {"robot/model.yaml:7", "found \"battery\" of a robot without a motor"}},
         BadInput{"unknown_joint",
                  {{kModel, "of: {shoulder: 1}", "of: {sholder: 1}"}},
                  kCheckModel,

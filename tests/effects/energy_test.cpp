@@ -59,7 +59,9 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryForce, testing::ValuesIn(force_laws()),
                          [](const auto& each) { return each.param->declaration().name; });
 
 /// What a drive gives less or more than the commanded torque, also at rest: power that its supply has.
-bool draws_on_the_supply(const Law& law) { return law.declaration().name == "voltage_limit"; }
+bool draws_on_the_supply(const Law& law) {
+  return law.declaration().name == "voltage_limit" || law.declaration().name == "torque_ripple";
+}
 
 std::vector<std::shared_ptr<const ForceLaw>> stateless_laws() {
   std::vector<std::shared_ptr<const ForceLaw>> result;

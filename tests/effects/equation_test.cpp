@@ -90,6 +90,7 @@ TEST(WrittenEquation, IsTheReading) {
       const double actual = sampler.between(-3, 3);
       Symbols symbols = symbols_of(*law, p, {});
       symbols["actual"] = actual;
+      symbols["actual_rate"] = 0.0;
       expect_close(sensor->reading(actual, p.data()), equations.value("reading", symbols),
                    law->declaration().name);
     }

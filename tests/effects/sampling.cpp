@@ -71,6 +71,10 @@ std::vector<double> Sampler::states(const Law& law, const Values& p) {
     };
     states[0] *= (value("level") + value("rise")) / value("stiffness");
   }
+  if (law.declaration().name == "slipping_coupling") {
+    states[0] *= p[static_cast<std::size_t>(law.parameter_index("limit"))] /
+                 p[static_cast<std::size_t>(law.parameter_index("stiffness"))];
+  }
   if (law.declaration().name == "resonator") {
     states[0] /= 50.0;  // at 8 Hz the stretch whose speed is 1
   }

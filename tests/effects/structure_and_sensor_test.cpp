@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "simulator/effects/late_sensor_law.h"
+#include "tests/effects/rk4.h"
 #include "tests/effects/sampling.h"
 
 namespace plumbline::effects {
@@ -79,6 +81,17 @@ TEST(EncoderEccentricity, ReturnsAfterEveryWave) {
 
 TEST(EncoderScale, ScalesTheReading) {
   EXPECT_DOUBLE_EQ(reading_of("encoder_scale", "scale", 1.02, -2.0), -2.04);
+}
+
+// A filter of first order with time constant T shows a ramp T late (its group delay at low frequencies).
+TEST(SensorLag, IsTheGroupDelayOfAFilter) {
+  const auto law = std::dynamic_pointer_cast<const LateSensorLaw>(Catalogue::all().find("sensor_lag"));
+  ASSERT_TRUE(law);
+  const double time_constant = 0.004, speed = 1.7;
+  const Values p = values_of(*law, {{"lag", time_constant}});
+  const Rate rate = [&](const State& s) { return State{1.0, (speed * s[0] - s[1]) / time_constant}; };
+  const State end = rk4(rate, {0.0, 0.0}, 0.2, 4000);  // time and what the filter shows
+  EXPECT_NEAR(law->reading(speed * end[0], p.data()) - law->lag(p.data()) * speed, end[1], 1e-9);
 }
 
 }  // namespace

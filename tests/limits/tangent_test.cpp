@@ -139,6 +139,9 @@ const std::vector<Case>& cases() {
        {"com_shift@thigh:x=0.003,z=0.002"},
        {{"com_shift", "thigh", "x", 0.1}, {"com_shift", "thigh", "z", 0.1}}},
       {"encoder_scale", {"encoder_scale@thigh:scale=1.01"}, {{"encoder_scale", "thigh", "scale", 1.0}}},
+      {"sensor_lag",
+       {"sensor_lag@thigh:lag=0.003", "encoder_scale@thigh:scale=1.01"},
+       {{"sensor_lag", "thigh", "lag", 0.01}, {"encoder_scale", "thigh", "scale", 1.0}}},
       {"actuator_lag",
        {"actuator_lag@mLA:time_constant=0.005"},
        {{"actuator_lag", "mLA", "time_constant", 0.005}}},
@@ -155,6 +158,17 @@ const std::vector<Case>& cases() {
         {"lugre", "mLA", "bristle_damping", 0.016},
         {"lugre", "mLA", "viscous", 0.001}}},
       {"torque_saturation", {"torque_saturation@mLA:sag=0.1"}, {{"torque_saturation", "mLA", "sag", 0.1}}},
+      {"torque_ripple",
+       {"torque_ripple@mLA:sine=0.05,cosine=0.03,cycles=12"},
+       {{"torque_ripple", "mLA", "sine", 0.1}, {"torque_ripple", "mLA", "cosine", 0.1}}},
+      {"winding",
+       {"winding@mLA:time_constant=0.005,slope=0.02"},
+       {{"winding", "mLA", "time_constant", 0.005}, {"winding", "mLA", "slope", 0.02}}},
+      {"battery",
+       {"battery@world:stall_sag=0.05,speed_sag=1e-3", "torque_constant_error@mLS:scale=1.05"},
+       {{"battery", "world", "stall_sag", 0.05},
+        {"battery", "world", "speed_sag", 1e-3},
+        {"torque_constant_error", "mLS", "scale", 1.0}}},
       {"asymmetric_spring",
        {"asymmetric_spring@thigh:stiffness_above=2,stiffness_below=1,rest=0.3"},
        {{"asymmetric_spring", "thigh", "stiffness_above", 1.0, kFastShare},
@@ -205,6 +219,25 @@ INSTANTIATE_TEST_SUITE_P(
                           "smoothing_length=1e-5"},
                          knee(0.02)}),
     [](const auto& chosen) { return chosen.param.label; });
+
+// Its corner is passed within a sample.
+INSTANTIATE_TEST_SUITE_P(StrainWaveGear, TangentByParameters,
+                         testing::Values(Case{
+                             "soft_and_stiff",
+                             {"harmonic_drive@leg_angle:stiffness_soft=5,stiffness_stiff=10,windup=0.05,"
+                              "damping=0.02"},
+                             {{"harmonic_drive", "leg_angle", "stiffness_soft", 5.0, 0.03},
+                              {"harmonic_drive", "leg_angle", "stiffness_stiff", 10.0, 0.03},
+                              {"harmonic_drive", "leg_angle", "windup", 0.05, 0.05}}}),
+                         [](const auto& chosen) { return chosen.param.label; });
+
+INSTANTIATE_TEST_SUITE_P(Coupling, TangentByParameters,
+                         testing::Values(Case{
+                             "that_slips",
+                             {"slipping_coupling@leg_angle:limit=0.6,stiffness=20,damping=0.05"},
+                             {{"slipping_coupling", "leg_angle", "limit", 0.6, 0.05},
+                              {"slipping_coupling", "leg_angle", "stiffness", 20.0, 0.05}}}),
+                         [](const auto& chosen) { return chosen.param.label; });
 
 // What a gear passes on depends on what it loses: the loop through the acceleration is left out of the
 // slopes.

@@ -91,6 +91,27 @@ TEST_F(DataSheets, AWindingIsAGainAndAFriction) {
   EXPECT_NEAR(rate[1], 10 * 0.05 / 2 * (u - 0.05 * 10 * v) / inertia, 1e-9);
 }
 
+// L di/dt + R i + k v = u: in the end of its rise the same torque as without inductance.
+TEST_F(DataSheets, AWindingWithInductanceDelaysItsTorque) {
+  const Model model =
+      read("    winding:", "    winding:\n      inductance: {value: 4, unit: mH, source: sheet}");
+  ASSERT_EQ(model.effects.size(), 1U);
+  EXPECT_EQ(model.effects[0].label(), "winding at drive");
+  EXPECT_NEAR(model.effects[0].values[0].value, 4e-3 / 2, 1e-15);
+  EXPECT_NEAR(model.effects[0].values[1].value, 0.05 * 0.05 / 2, 1e-15);
+  Plant plant(model, {});
+  const double u = 7.0;
+  const double current = 1.5;
+  Eigen::Vector3d x(0.0, 3.0, 0.05 * current);
+  Eigen::Vector3d rate;
+  plant.rate(x.data(), &u, rate.data());
+  const double inertia = 1e-4 + 0.5 * 0.01 + 100 * 1e-4;
+  EXPECT_NEAR(rate[1], 10 * 0.05 * current / inertia, 1e-9);
+  EXPECT_NEAR(rate[2], 0.05 * (u - 2 * current - 0.05 * 10 * 3.0) / 4e-3, 1e-9);
+  plant.settle(&u, x.data());
+  EXPECT_NEAR(x[2], 0.05 * u / 2, 1e-9);  // by the slope of a rate, from differences
+}
+
 TEST_F(DataSheets, ASensorOfARate) {
   const Model model = read();
   EXPECT_EQ(reading_unit(model, "gyro"), "rad/s");

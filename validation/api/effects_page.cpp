@@ -65,13 +65,16 @@ constexpr const char* kHead =
     "force is drawn over position and velocity, along a sine, under a\ntorque that swings with it; an "
     "actuator's "
     "torque over its command and in time; a sensor's reading and error over the true value.\nInertias, "
-    "delays and "
+    "delays, the battery and "
     "the ground have no picture. In equations `x` and `v` are position and velocity of the place, `u` is "
     "the\n"
     "command in torque units, `load` the torque that the motor delivers, or that its gear passes on.\n\n"
-    "One motor's law does not see another motor: a battery that sags under all of them is not in the "
-    "catalogue. "
-    "`voltage_limit`\nof each motor is what is named then.\n";
+    "What two laws say together has no third: a cable harness is `spring`, `hardening` and `hysteresis` of "
+    "one "
+    "coordinate; the two waves a\nturn of a harmonic drive are `encoder_eccentricity` (waves 2) and "
+    "`cogging` "
+    "(cycles 2) of its motor; a mounting that yields and a link\nthat bends are `resonator` with a negative "
+    "`rotor_inertia`; clocks of command and measurement apart are `command_delay` of all motors.\n";
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/effects/late_sensor_law.h"
 #include "simulator/effects/parameters.h"
 
 namespace plumbline::api {
@@ -30,8 +31,12 @@ Values drawn_values(const effects::Law& law) {
   constexpr double kLess = 0.6;
   const effects::Scales scales{1.0, 0.7, 1.0, 1.0, 0.3, 0.0};
   const std::vector<Values> starts = law.starts(scales);
-  Values values = law.sits_at(effects::Place::ratio) ? starts.back() : starts.front();
   const Values typical = law.typical(scales);
+  const bool is_ratio = law.sits_at(effects::Place::ratio);
+  Values values = is_ratio ? starts.back() : starts.front();
+  if (is_ratio && law.state_count() > 0) {
+    values = typical;  // a coupling: where a search starts it is too stiff for these steps
+  }
   double share = 1.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const effects::Parameter& parameter = law.declaration().parameters[i];
@@ -160,11 +165,13 @@ std::string effect_picture(const effects::Law& law) {
     return of_force(*force);
   }
   const auto* actuator = dynamic_cast<const ActuatorLaw*>(&law);
-  if (actuator != nullptr && actuator->delay(drawn_values(law).data()) == 0.0) {
+  if (actuator != nullptr && !law.sits_at(effects::Place::world) &&
+      actuator->delay(drawn_values(law).data()) == 0.0) {
     return of_actuator(*actuator);
   }
   const auto* sensor = dynamic_cast<const effects::SensorLaw*>(&law);
-  return sensor != nullptr ? of_sensor(*sensor) : "";
+  const bool is_late = dynamic_cast<const effects::LateSensorLaw*>(&law) != nullptr;
+  return sensor != nullptr && !is_late ? of_sensor(*sensor) : "";
 }
 
 }  // namespace plumbline::api

@@ -45,7 +45,7 @@ struct Named {
   Law law;
 };
 
-constexpr std::array<Named, 26> kForces{{
+constexpr std::array<Named, 27> kForces{{
     {"viscous", [](const Hidden& e, const PlaceMotion& m) { return -e["damping"] * m.v; }},
     {"coulomb", [](const Hidden& e, const PlaceMotion& m) { return -e["level"] * sign_of(e, m.v); }},
     {"stribeck", [](const Hidden& e, const PlaceMotion& m) { return -sliding(e, m.v) * sign_of(e, m.v); }},
@@ -88,6 +88,7 @@ constexpr std::array<Named, 26> kForces{{
      }},
     {"lugre", nullptr},
     {"resonator", nullptr},
+    {"slipping_coupling", nullptr},
     // Laws that no catalogue has.
     {"sticky_spot",
      [](const Hidden& e, const PlaceMotion& m) {
@@ -126,27 +127,32 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array<const char*, 21> kOthers{"torque_bias",
-                                              "torque_saturation",
-                                              "voltage_limit",
-                                              "thermal_motor",
-                                              "torque_constant_error",
-                                              "actuator_lag",
-                                              "current_loop",
-                                              "command_delay",
-                                              "rotor_inertia",
-                                              "cable_stretch",
-                                              "backlash",
-                                              "added_mass",
-                                              "com_shift",
-                                              "payload",
-                                              "gravity_tilt",
-                                              "encoder_offset",
-                                              "encoder_scale",
-                                              "encoder_eccentricity",
-                                              "ground_stiffness_error",
-                                              "ground_damping_error",
-                                              "ground_friction_error"};
+constexpr std::array kOthers{"torque_bias",
+                             "torque_ripple",
+                             "winding",
+                             "battery",
+                             "harmonic_drive",
+                             "sensor_lag",
+                             "torque_saturation",
+                             "voltage_limit",
+                             "thermal_motor",
+                             "torque_constant_error",
+                             "actuator_lag",
+                             "current_loop",
+                             "command_delay",
+                             "rotor_inertia",
+                             "cable_stretch",
+                             "backlash",
+                             "added_mass",
+                             "com_shift",
+                             "payload",
+                             "gravity_tilt",
+                             "encoder_offset",
+                             "encoder_scale",
+                             "encoder_eccentricity",
+                             "ground_stiffness_error",
+                             "ground_damping_error",
+                             "ground_friction_error"};
 
 }  // namespace
 
@@ -187,7 +193,8 @@ Law law_of(const Hidden& effect) {
 }
 
 int states_of(const Hidden& effect) {
-  return effect.effect == "resonator" ? 2 : effect.effect == "lugre" ? 1 : 0;
+  const bool is_one = effect.effect == "lugre" || effect.effect == "slipping_coupling";
+  return effect.effect == "resonator" ? 2 : is_one ? 1 : 0;
 }
 
 double force(const Hidden& effect, const PlaceMotion& m, const double* states) {
@@ -203,6 +210,9 @@ double force(const Hidden& effect, const PlaceMotion& m, const double* states) {
   if (effect.effect == "resonator") {
     return -effect["inertia"] * rates[1];  // what pulls the mass pulls the link back
   }
+  if (effect.effect == "slipping_coupling") {
+    return -effect["stiffness"] * states[0] - effect["damping"] * rates[0];
+  }
   return -effect["stiffness"] * states[0] - effect["bristle_damping"] * rates[0] - effect["viscous"] * m.v;
 }
 
@@ -217,12 +227,27 @@ void state_rates(const Hidden& effect, const PlaceMotion& m, const double* state
     rates[1] = -(spring * states[0] + damper * rates[0]) / mass;
     return;
   }
+  if (effect.effect == "slipping_coupling") {  // an elastic and perfectly plastic piece: Prandtl's
+    const double pull = effect["stiffness"] * states[0];
+    rates[0] = std::abs(pull) >= effect["limit"] && pull * m.v > 0.0 ? 0.0 : m.v;
+    return;
+  }
   rates[0] = m.v - effect["stiffness"] * std::abs(m.v) * states[0] / sliding(effect, m.v);
+}
+
+bool is_of_drive(const Hidden& effect) {
+  return effect.effect == "torque_saturation" || effect.effect == "voltage_limit" ||
+         effect.effect == "torque_ripple";
 }
 
 // The circuit of the winding, in units in which the torque constant is 1: voltage and speed, current and
 // torque are then the same number, and R = voltage/stall torque.
-double delivered(const Hidden& effect, double asked, double v) {
+double delivered(const Hidden& effect, double asked, double x, double v) {
+  if (effect.effect == "torque_ripple") {  // one wave, by how high it is and where it begins
+    const double phase = std::atan2(effect["sine"], effect["cosine"]);
+    return asked *
+           (1.0 + std::hypot(effect["sine"], effect["cosine"]) * std::cos(effect["cycles"] * x - phase));
+  }
   if (effect.effect == "torque_saturation") {
     const double limit = 1.0 / std::sqrt(effect["sag"]);
     return limit * std::sin(std::atan(asked / limit));
@@ -236,13 +261,45 @@ double delivered(const Hidden& effect, double asked, double v) {
   return ((needed > 0.0 ? voltage : -voltage) - v) / resistance;
 }
 
+// L di/dt + R i + K w = U, in units in which K is 1.
+double current_rate(const Hidden& winding, double asked, double current, double v) {
+  const bool turns = winding["slope"] > 0.0;
+  const double resistance = turns ? 1.0 / winding["slope"] : 1.0;
+  const double inductance = winding["time_constant"] * resistance;
+  return (resistance * (asked - current) - (turns ? v : 0.0)) / inductance;
+}
+
+// Full, the battery has 1 V; each motor has K = 1 and R = stall_sag/speed_sag, and its amplifier a share d of
+// the battery's voltage V for it: i = (d V - w)/R flows in the motor, d i in the battery.
+double battery_voltage(const Hidden& battery, const std::vector<double>& asked,
+                       const std::vector<double>& speeds) {
+  const double inner = battery["speed_sag"];
+  const double resistance = battery["stall_sag"] / inner;
+  double voltage = 1.0;
+  for (int round = 0; round < 60; ++round) {  // Ohm's law again and again: each time nearer by its sag
+    double drawn = 0.0;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const double share = asked[i] * resistance;
+      drawn += share * (share * voltage - speeds[i]) / resistance;
+    }
+    voltage = 1.0 - inner * drawn;
+  }
+  return voltage;
+}
+
 bool is_compliance(const Hidden& effect) {
-  return effect.effect == "cable_stretch" || effect.effect == "backlash";
+  return effect.effect == "cable_stretch" || effect.effect == "backlash" ||
+         effect.effect == "harmonic_drive" || effect.effect == "slipping_coupling";
 }
 
 double compliance_force(const Hidden& effect, double x, double v) {
   if (effect.effect == "cable_stretch") {
     return -effect["stiffness"] * x - effect["damping"] * v;
+  }
+  if (effect.effect == "harmonic_drive") {  // a spring, and another beside it beyond the windup
+    const double over = std::max(0.0, std::abs(x) - effect["windup"]);
+    const double more = effect["stiffness_stiff"] - effect["stiffness_soft"];
+    return -effect["stiffness_soft"] * x - more * std::copysign(over, x) - effect["damping"] * v;
   }
   // A spring with a dead zone, whose surfaces push and never pull.
   const double half = 0.5 * effect["gap"];

@@ -36,9 +36,15 @@ Law law_of(const Hidden& effect);
 double force(const Hidden& effect, const PlaceMotion& m, const double* states);
 void state_rates(const Hidden& effect, const PlaceMotion& m, const double* states, double* rates);
 
-/// Of a motor's winding and iron (voltage_limit, torque_saturation): the torque that comes of what the
-/// amplifier is asked for at speed v.
-double delivered(const Hidden& effect, double asked, double v);
+bool is_of_drive(const Hidden& effect);
+/// Of a motor's winding, iron and slots (voltage_limit, torque_saturation, torque_ripple): the torque that
+/// comes of what the amplifier is asked for at angle x and speed v.
+double delivered(const Hidden& effect, double asked, double x, double v);
+/// Rate of the torque of a winding with an inductance.
+double current_rate(const Hidden& winding, double asked, double current, double v);
+/// What is left of its voltage, as a share, under the motors that are asked for so much at these speeds.
+double battery_voltage(const Hidden& battery, const std::vector<double>& asked,
+                       const std::vector<double>& speeds);
 
 /// Force on the motor's side of a gear that gives: x and v of its wind-up, motor less ratio times output.
 bool is_compliance(const Hidden& effect);

@@ -99,6 +99,14 @@ void Machine::add_effects() {
       states_ += 2;
       continue;
     }
+    if (effect.effect == "winding") {
+      circuits_.push_back({i, static_cast<int>(states_++), effect});
+      continue;
+    }
+    if (effect.effect == "battery") {
+      batteries_.push_back(effect);
+      continue;
+    }
     if (effect.effect == "thermal_motor") {
       warming_.push_back({i, static_cast<int>(states_), effect});
       states_ += 2;
@@ -112,7 +120,7 @@ void Machine::add_effects() {
       delay_[i] += effect["delay"];
       continue;
     }
-    if (effect.effect == "torque_saturation" || effect.effect == "voltage_limit") {
+    if (is_of_drive(effect)) {
       windings_.emplace_back(i, effect);
       continue;
     }
@@ -180,6 +188,9 @@ State Machine::start_state(const Vector& commands, const Vector& links_rate) con
   for (const Loop& loop : loops_) {
     x[loop.state] = commands[static_cast<Eigen::Index>(loop.motor)];
   }
+  for (const Loop& one : circuits_) {
+    x[one.state] = rig_.motors[one.motor].torque_per_unit * commands[static_cast<Eigen::Index>(one.motor)];
+  }
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
     if (lag_state_[i] >= 0) {
       x[lag_state_[i]] = commands[static_cast<Eigen::Index>(i)];
@@ -191,7 +202,7 @@ State Machine::start_state(const Vector& commands, const Vector& links_rate) con
 double Machine::force_of(const Acting& one, const State& x, const Vector& full, const Vector& full_rate,
                          double load) const {
   const PlaceMotion motion{one.row.dot(full), one.row.dot(full_rate), load};
-  if (one.compliance) {
+  if (one.compliance && one.state < 0) {
     return compliance_force(one.effect, motion.x, motion.v);
   }
   return one.law != nullptr ? one.law(one.effect, motion)
@@ -220,6 +231,19 @@ double Machine::warmed(const Loop& one, double asked, const State& x, State& rat
   return asked * (1.0 - one.effect["magnet_sag"] * iron) / (1.0 + one.effect["copper_sag"] * copper);
 }
 
+// All motors hang on one battery.
+void Machine::sag(const Vector& full_rate, Vector& Q) const {
+  for (const Hidden& battery : batteries_) {
+    std::vector<double> asked;
+    std::vector<double> speeds;
+    for (Eigen::Index m = n_; m < Q.size(); ++m) {
+      asked.push_back(Q[m]);
+      speeds.push_back(full_rate[m]);
+    }
+    Q.tail(Q.size() - n_) *= battery_voltage(battery, asked, speeds);
+  }
+}
+
 Vector Machine::forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                        const Vector& loads, Vector& passed, State& rate) const {
   passed = Vector::Zero(loads.size());
@@ -238,17 +262,25 @@ Vector Machine::forces(const Vector& commands, const State& x, const Vector& ful
     for (const Loop& one : warming_) {
       Q[n_ + m] = one.motor == i ? warmed(one, Q[n_ + m], x, rate) : Q[n_ + m];
     }
-    for (const auto& [motor, winding] : windings_) {
-      Q[n_ + m] = motor == i ? delivered(winding, Q[n_ + m], full_rate[n_ + m]) : Q[n_ + m];
+    for (const auto& [motor, drive] : windings_) {
+      Q[n_ + m] = motor == i ? delivered(drive, Q[n_ + m], full[n_ + m], full_rate[n_ + m]) : Q[n_ + m];
+    }
+    for (const Loop& one : circuits_) {
+      if (one.motor == i) {
+        rate[one.state] = current_rate(one.effect, Q[n_ + m], x[one.state], full_rate[n_ + m]);
+        Q[n_ + m] = x[one.state];
+      }
     }
   }
+  sag(full_rate, Q);
   for (const Acting& one : acting_) {
     const double load = one.motor >= 0 && !one.compliance ? loads[one.motor] : 0.0;
     const double acts = force_of(one, x, full, full_rate, load);
     Q += one.row * acts;
     if (one.compliance) {
       passed[one.motor] -= acts;
-    } else if (one.state >= 0) {
+    }
+    if (one.state >= 0) {
       state_rates(one.effect, {one.row.dot(full), one.row.dot(full_rate), load}, x.data() + one.state,
                   rate.data() + one.state);
     }

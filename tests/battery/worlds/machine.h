@@ -69,7 +69,7 @@ class Machine {
     Law law = nullptr;  // nullptr: it needs a state, or is a compliance
   };
 
-  /// A current loop of second order, or what warms: a motor with two states.
+  /// A current loop of second order, what warms (two states), or a winding's current (one).
   struct Loop {
     std::size_t motor = 0;
     int state = 0;
@@ -106,6 +106,7 @@ class Machine {
   void rates(const Vector& commands, Creeping who, const State& x, State& rate) const;
   static double warmed(const Loop& one, double asked, const State& x, State& rate);
   static double through(const Loop& loop, double asked, const State& x, State& rate);
+  void sag(const Vector& full_rate, Vector& Q) const;
   Vector forces(const Vector& commands, const State& x, const Vector& full, const Vector& full_rate,
                 const Vector& loads, Vector& passed, State& rate) const;
 
@@ -120,7 +121,8 @@ class Machine {
   std::vector<Acting> acting_;
   std::vector<int> lag_state_;  // of each motor; -1: none
   std::vector<double> lag_, bias_, delay_;
-  std::vector<Loop> loops_, warming_;
+  std::vector<Loop> loops_, warming_, circuits_;
+  std::vector<Hidden> batteries_;
   std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action
   bool load_matters_ = false;
   Eigen::Index states_ = 0;

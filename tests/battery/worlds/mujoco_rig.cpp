@@ -216,9 +216,9 @@ void add_forces(const mjModel* /*model*/, mjData* data) {
     const auto m = static_cast<Eigen::Index>(motor - rig.motors.data());
     if (e.effect == "torque_bias") {
       Q[n + m] += e["bias"];
-    } else if (e.effect == "torque_saturation" || e.effect == "voltage_limit") {
+    } else if (is_of_drive(e)) {
       const double asked = rig.motors[static_cast<std::size_t>(m)].torque_per_unit * running->commands[m];
-      Q[n + m] += delivered(e, asked, rate[n + m]) - asked;
+      Q[n + m] += delivered(e, asked, full[n + m], rate[n + m]) - asked;
     } else if (is_compliance(e)) {
       for (std::size_t i = 0; i < rig.motors.size(); ++i) {
         const Motor& one = rig.motors[i];

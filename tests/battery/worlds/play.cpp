@@ -26,9 +26,16 @@ std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT
 constexpr std::array<double, 8> kUnusualCycles{5, 9, 11, 13, 15, 17, 26, 33};
 constexpr double kExponentSpread = 0.5;  // of Stribeck's exponent about 2: half to two is reported for oils
 
+constexpr std::array<const char*, 6> kBeyondMujoco{"resonator", "current_loop",      "thermal_motor",
+                                                   "winding",   "slipping_coupling", "battery"};
+
+bool contains(const std::array<const char*, 6>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Constants of shape as few robots have them; no fit moves Stribeck's exponent.
 void take_unusual_shape(Hidden& effect, Draw& draw) {
-  if (effect.effect == "cogging") {
+  if (effect.effect == "cogging" || effect.effect == "torque_ripple") {
     effect.values["cycles"] = kUnusualCycles[draw.seed() % kUnusualCycles.size()];
   }
   if (effect.effect == "stribeck") {
@@ -115,9 +122,8 @@ std::string why_not(const Case& one, bool mujoco) {
     return "MuJoCo has no robot that hops under a controller";
   }
   for (const Row& row : one.rows) {
-    if (mujoco &&
-        (row.effect == "resonator" || row.effect == "current_loop" || row.effect == "thermal_motor")) {
-      return "MuJoCo's robots have no states of their own";
+    if (mujoco && contains(kBeyondMujoco, row.effect)) {
+      return "MuJoCo's robots have no states of their own, and no battery";
     }
     if (!is_known(row.effect)) {
       return row.effect == "boom" ? "the foreign worlds are flat: no boom bends their ways"

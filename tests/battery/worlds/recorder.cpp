@@ -71,6 +71,37 @@ double counted(const Sensor& sensor, double value, std::mt19937_64& noise) {
   return sensor.resolution > 0.0 ? sensor.resolution * std::round(value / sensor.resolution) : value;
 }
 
+namespace {
+
+/// All positions at `at` samples (Hermite's cubic); before the first one as if it had gone on like that.
+Vector positions_between(const Motion& motion, double at, double period) {
+  const auto last = motion.positions.cols() - 1;
+  if (at <= 0.0 || last < 1) {
+    return motion.positions.col(0) + at * period * motion.rates.col(0);
+  }
+  const auto j = std::min(static_cast<Eigen::Index>(std::floor(at)), last - 1);
+  const double t = at - static_cast<double>(j);
+  const Vector p0 = motion.positions.col(j);
+  const Vector p1 = motion.positions.col(j + 1);
+  const Vector v0 = period * motion.rates.col(j);
+  const Vector v1 = period * motion.rates.col(j + 1);
+  return p0 + t * v0 + t * t * (3.0 * (p1 - p0) - 2.0 * v0 - v1) + t * t * t * (v0 + v1 - 2.0 * (p1 - p0));
+}
+
+}  // namespace
+
+Eigen::VectorXd readings_at(const Rig& rig, const Motion& motion, Eigen::Index k, double period) {
+  Eigen::VectorXd readings = readings_of(rig, motion.positions.col(k));
+  for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
+    if (rig.sensors[s].late != 0.0) {
+      const double at = static_cast<double>(k) - rig.sensors[s].late / period;
+      const auto i = static_cast<Eigen::Index>(s);
+      readings[i] = readings_of(rig, positions_between(motion, at, period))[i];
+    }
+  }
+  return readings;
+}
+
 Recording record(const Rig& rig, const Experiment& experiment, const model::Model& model,
                  const std::string& mujoco) {
   const Vector start = start_of(rig, experiment);
@@ -140,7 +171,7 @@ Trial trial_of(const Recording& recording, const Experiment& experiment, const m
   for (Eigen::Index k = 0; k < samples; ++k) {
     const Vector full = recording.motion.positions.col(k);
     const Vector full_rate = recording.motion.rates.col(k);
-    const Eigen::VectorXd readings = readings_of(rig, full);
+    const Eigen::VectorXd readings = readings_at(rig, recording.motion, k, recording.period);
     for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
       trial.measured[s].values[k] = counted(rig.sensors[s], readings[static_cast<Eigen::Index>(s)], noise);
     }

@@ -23,6 +23,10 @@ Recording record(const Rig& rig, const validation::Experiment& experiment, const
 /// What a sensor shows: with noise, then in whole counts.
 double counted(const Sensor& sensor, double value, std::mt19937_64& noise);
 
+/// What the sensors show at sample k of a motion, each of it as late as it is: between samples by the cubic
+/// that has their positions and rates.
+Eigen::VectorXd readings_at(const Rig& rig, const Motion& motion, Eigen::Index k, double period);
+
 /// In whole counts, with noise; locked motors where their own encoders show them.
 validation::Trial trial_of(const Recording& recording, const validation::Experiment& experiment,
                            const model::Model& model, std::mt19937_64& noise);

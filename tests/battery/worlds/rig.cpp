@@ -194,6 +194,10 @@ bool change_sensor(const Hidden& e, Sensor& sensor) {
     sensor.phase = std::atan2(e["sine"], e["cosine"]);
     return true;
   }
+  if (e.effect == "sensor_lag") {
+    sensor.late += e["lag"];
+    return true;
+  }
   if (e.effect == "encoder_scale") {
     sensor.scale *= e["scale"];
     return true;
@@ -290,7 +294,8 @@ void hide(const Hidden& effect, Rig& rig) {
   if (change_numbers(effect, rig)) {
     return;
   }
-  if (rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
+  const bool is_anywhere = effect.effect == "battery";
+  if (!is_anywhere && rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
     throw std::invalid_argument("the rig has no place " + effect.at + " for " + effect.effect);
   }
   rig.effects.push_back(effect);

@@ -51,6 +51,7 @@ struct Sensor {
   Vector row;
   double resolution = 0.0, noise = 0.0;
   double scale = 1.0, offset = 0.0;
+  double late = 0.0;                                 ///< shows what was so many seconds earlier
   double waves = 0.0, amplitude = 0.0, phase = 0.0;  ///< of an eccentric disc: amplitude cos(waves x - phase)
 };
 

@@ -16,15 +16,16 @@ double floor_of(const Sensor& sensor) {
 }
 
 /// Readings of a window in floors, one behind the other.
-Eigen::VectorXd shown(const Rig& rig, const Eigen::MatrixXd& positions) {
+Eigen::VectorXd shown(const Rig& rig, const Motion& motion, Eigen::Index first, Eigen::Index count,
+                      double period) {
   const auto sensors = static_cast<Eigen::Index>(rig.sensors.size());
-  Eigen::VectorXd all(sensors * positions.cols());
-  for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-    all.segment(k * sensors, sensors) = readings_of(rig, positions.col(k));
+  Eigen::VectorXd all(sensors * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    all.segment(k * sensors, sensors) = readings_at(rig, motion, first + k, period);
   }
   for (Eigen::Index s = 0; s < sensors; ++s) {
     const double floor = floor_of(rig.sensors[static_cast<std::size_t>(s)]);
-    for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+    for (Eigen::Index k = 0; k < count; ++k) {
       all[k * sensors + s] /= floor;
     }
   }
@@ -52,11 +53,11 @@ class Seen {
     const Motion motion = machine.run(
         x, window.first, window.count, truth_.period,
         [&](Eigen::Index k, const Eigen::VectorXd&, Vector& u) { u = truth_.motion.commands.col(k); });
-    return shown(rig, motion.positions);
+    return shown(rig, motion, 0, window.count, truth_.period);
   }
 
   Eigen::VectorXd measured(const Window& window) const {
-    return shown(truth_.rig, truth_.motion.positions.middleCols(window.first, window.count));
+    return shown(truth_.rig, truth_.motion, window.first, window.count, truth_.period);
   }
 
   /// Ranges of positions and rates over the recording, in the state of `rig`.

@@ -17,10 +17,11 @@ const std::vector<std::vector<std::string>>& families() {
       {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
        "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
       {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
-      {"actuator_lag", "current_loop", "command_delay"},
+      {"actuator_lag", "current_loop", "command_delay", "winding"},
       {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
-      {"cable_stretch", "backlash"},
-      {"encoder_offset", "encoder_scale", "encoder_eccentricity"}};
+      {"cable_stretch", "backlash", "harmonic_drive", "slipping_coupling"},
+      {"cogging", "torque_ripple"},
+      {"encoder_offset", "encoder_scale", "encoder_eccentricity", "sensor_lag"}};
   return kFamilies;
 }
 
@@ -38,6 +39,9 @@ const std::vector<Forerunners>& forerunners() {
       {"voltage_limit", {"torque_saturation", "torque_constant_error", "viscous", "quadratic"}},
       {"thermal_motor", {"torque_constant_error", "torque_saturation"}},
       {"current_loop", {"command_delay", "torque_constant_error"}},
+      {"winding", {"command_delay", "torque_constant_error", "viscous"}},
+      {"harmonic_drive", {"rotor_inertia", "viscous", "spring", "torque_constant_error"}},
+      {"slipping_coupling", {"torque_saturation", "torque_constant_error", "coulomb", "viscous"}},
       {"resonator", {"viscous", "spring", "hardening", "rotor_inertia"}}};
   return kForerunners;
 }
