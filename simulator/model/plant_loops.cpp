@@ -52,7 +52,7 @@ void Plant::hold_loops() {
   loop_J_.noalias() = loop_tree_J_ * S_tree_;
   loop_Y_ = factor_.solve(loop_J_.transpose());
   loop_factor_.compute(loop_J_ * loop_Y_);
-  if (loop_J_.allFinite() &&
+  if (loop_J_.allFinite() && M_.allFinite() &&
       (loop_factor_.info() != Eigen::Success || !(loop_factor_.rcond() > kDeadCentre))) {
     throw std::runtime_error(model_.file + ": loop " + model_.loops.front().name +
                              (model_.loops.size() > 1 ? " or another" : "") +

@@ -92,10 +92,9 @@ inline model::Model two_arms(int links, unsigned seed = 5) {
 }
 
 /// The tips of both arms, in the last links' frames.
-inline model::LoopEnd tip(const model::Model& model, int arm, int links) {
+inline model::LoopEnd tip(int arm, int links) {
   const int body = (arm + 1) * links - 1;
-  (void)model;
-  return {body, Eigen::Vector3d(0.25, 0.03, 0.0), at({}, {0.3, -0.2, 0.5}).linear()};
+  return {body, Eigen::Vector3d(0.25, 0.03, 0.0), at({0.0, 0.0, 0.0}, {0.3, -0.2, 0.5}).linear()};
 }
 
 }  // namespace plumbline::test

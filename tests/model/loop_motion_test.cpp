@@ -21,10 +21,10 @@ constexpr double kCrank = 0.1, kRod = 0.35;  // m
 Model slider_crank() {
   Model model;
   model.file = "model.yaml";
-  const int crank = test::hang(model, test::bar("crank", 0.8, {0.0, 0.0, 0.0}, 0.006), -1, test::at({}),
-                               Eigen::Vector3d::UnitY());
-  const int slider = test::hang(model, test::bar("slider", 0.5, {0.0, 0.0, 0.0}, 0.001), -1, test::at({}),
-                                Eigen::Vector3d::UnitX(), JointType::prismatic);
+  const int crank = test::hang(model, test::bar("crank", 0.8, {0.0, 0.0, 0.0}, 0.006), -1,
+                               test::at({0.0, 0.0, 0.0}), Eigen::Vector3d::UnitY());
+  const int slider = test::hang(model, test::bar("slider", 0.5, {0.0, 0.0, 0.0}, 0.001), -1,
+                                test::at({0.0, 0.0, 0.0}), Eigen::Vector3d::UnitX(), JointType::prismatic);
   model.skeleton.gravity.setZero();
   model.loops.push_back(test::loop(Loop::Type::rod, {crank, {kCrank, 0, 0}}, {slider, {0, 0, 0}}, kRod));
   model.loops_near = {{"j_slider", 0.4}};
@@ -103,7 +103,7 @@ class LoopsOverTenSeconds : public testing::TestWithParam<Method_of> {};
 // A four-bar linkage that swings and turns over under gravity, and two arms tied at their tips.
 TEST_P(LoopsOverTenSeconds, KeepEnergyAndStayClosed) {
   Model arms = test::two_arms(3);
-  arms.loops.push_back(test::loop(Loop::Type::connect, test::tip(arms, 0, 3), test::tip(arms, 1, 3)));
+  arms.loops.push_back(test::loop(Loop::Type::connect, test::tip(0, 3), test::tip(1, 3)));
   for (const Model& model : {test::four_bar(), arms}) {
     Plant plant(model, {});
     PlantOde ode(plant, false, false);

@@ -109,14 +109,14 @@ struct Case {
 
 Case arms(const std::string& name, Loop::Type type, int links, double length = 0.0) {
   Model model = test::two_arms(links);
-  model.loops.push_back(test::loop(type, test::tip(model, 0, links), test::tip(model, 1, links), length));
+  model.loops.push_back(test::loop(type, test::tip(0, links), test::tip(1, links), length));
   return {name, model};
 }
 
 Case tied_to_world() {
   Model model = test::two_arms(3);
-  model.loops.push_back(test::loop(Loop::Type::connect, {-1, {0.5, 0.1, 0.9}}, test::tip(model, 0, 3)));
-  model.loops.push_back(test::loop(Loop::Type::rod, test::tip(model, 0, 3), test::tip(model, 1, 3), 0.45));
+  model.loops.push_back(test::loop(Loop::Type::connect, {-1, {0.5, 0.1, 0.9}}, test::tip(0, 3)));
+  model.loops.push_back(test::loop(Loop::Type::rod, test::tip(0, 3), test::tip(1, 3), 0.45));
   model.loops.back().name = "strut";
   return {"world_and_rod", model};
 }
@@ -152,7 +152,7 @@ TEST_P(LoopsBesideSimbody, MoveTheSame) {
   int compared = 0;
   for (int i = 0; i < 400 && compared < 100; ++i) {
     Eigen::VectorXd z = plant.home() + 0.7 * some();
-    if (!plant.closure()->close(all, z, z)) {
+    if (!plant.closure()->close(all, Eigen::VectorXd(z), z)) {
       continue;  // drawn too far from where the loops can close
     }
     x << z, plant.closure()->velocities(all, 2.0 * some(), z);
