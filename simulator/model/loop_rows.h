@@ -44,14 +44,14 @@ class LoopRows {
 
  private:
   struct Point {
-    int body = -1;          // of the tree; -1: the world, and the point is in its frame
-    Eigen::Vector3d point;  // in the body's frame
+    int body = -1;  // of the tree; -1: the world, and the point is in its frame
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  // in the body's frame
   };
   struct Row {
     int loop = 0;
     std::array<Point, 2> at;
-    Eigen::Vector3d along;  // in the axes of the first body
-    double length = 0.0;    // of a rod; else 0
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();  // in the axes of the first body
+    double length = 0.0;                              // of a rod; else 0
   };
   Point point_of(const Mechanism& mechanism, const LoopEnd& end, const Eigen::Vector3d& offset) const;
   void add_point(const Mechanism& mechanism, const Loop& loop, int index, const Eigen::Vector3d& offset,

@@ -69,8 +69,9 @@ TEST_F(LoopFiles, CloseWhereTheirCirclesCross) {
 
 TEST_F(LoopFiles, AreRefusedInOneLine) {
   expect_refused("type: connect", "type: glue", "type:", "\"glue\"");
-  expect_refused("link: shin, value: [0", "link: shank, value: [0", "- {link: shank", "did you mean shin?");
-  expect_refused("link: shin, value: [0", "link: coupler, value: [0", "- {link: coupler",
+  expect_refused("link: shin, value: [0", "link: shank, value: [0", "- {link: shank",
+                 "expected the name of a link");
+  expect_refused("link: shin, value: [0", "link: coupler, value: [0", "between",
                  "both ends on the same link");
   expect_refused("value: [280, 0, 0]", "value: [280, 0]", "- {link: coupler", "2 numbers");
   expect_refused("unit: mm}", "unit: kg}", "- {link: coupler", "unit \"kg\"");
