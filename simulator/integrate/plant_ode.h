@@ -24,6 +24,9 @@ class PlantOde : public Ode {
   std::string stiffest(double t, const double* x) override;
   int switch_count() const override { return with_switches_ ? plant_.switch_count() : 0; }
   void switches(double t, const double* x, double* g) override;
+  /// Onto the closed loops, where the model has some.
+  bool has_projection() const override { return plant_.has_loops(); }
+  double project(double /*t*/, double* x) override { return plant_.close_loops(x); }
 
   /// The command that holds from now on (command units, one for each motor).
   double* command() { return command_.data(); }

@@ -221,6 +221,10 @@ void RosenbrockBackend::step(double t_stop) {
     if (accepted) {
       t_ = t_stop - after <= roundoff(t_stop) ? t_stop : after;
       x_.swap(trial_);
+      if (bridge_.ode().has_projection()) {
+        bridge_.largest_projection =
+            std::max(bridge_.largest_projection, bridge_.ode().project(t_, x_.data()));
+      }
       ++counts_.steps;
       return;
     }

@@ -25,6 +25,20 @@ std::string ratio_unit(bool motor_angular, bool coordinate_angular) {
   return motor_angular ? "rad/m" : "m/rad";
 }
 
+std::string to_string(Loop::Type type) {
+  switch (type) {
+    case Loop::Type::connect:
+      return "connect";
+    case Loop::Type::hinge:
+      return "hinge";
+    case Loop::Type::weld:
+      return "weld";
+    case Loop::Type::rod:
+      break;
+  }
+  return "rod";
+}
+
 std::vector<std::string> joint_names(const Skeleton& skeleton) {
   std::vector<std::string> names;
   for (const Joint& joint : skeleton.joints) {

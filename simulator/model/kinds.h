@@ -19,6 +19,9 @@ std::string reading_column(const Sensor& sensor);
 /// Motor position per coordinate position.
 std::string ratio_unit(bool motor_angular, bool coordinate_angular);
 
+/// connect, hinge, weld, rod
+std::string to_string(Loop::Type type);
+
 std::vector<std::string> joint_names(const Skeleton& skeleton);  ///< moving joints
 /// Coordinates, then pulleys, which count as coordinates wherever one is named.
 std::vector<std::string> coordinate_names(const Model& model);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/mjcf_loops.h"
 #include "simulator/model/mjcf_shapes.h"
 #include "simulator/model/mjcf_values.h"
 #include "simulator/trace/error.h"
@@ -63,6 +64,7 @@ class MjcfReader : private MjcfValues {
     }
     refuse_massless();
     check_joint_names(skeleton_);
+    read_mjcf_loops(file_, *root_, skeleton_);
     name_what_is_left_out();
     return std::move(skeleton_);
   }
@@ -418,12 +420,12 @@ class MjcfReader : private MjcfValues {
                                      {"keyframe", ""}}};
     for (const Part& part : parts) {
       const XMLElement* section = root_->FirstChildElement(part.name);
-      if (section != nullptr && section->FirstChildElement() != nullptr) {
-        int count = 0;
-        for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
-             one = one->NextSiblingElement()) {
-          ++count;
-        }
+      int count = 0;
+      for (const XMLElement* one = section == nullptr ? nullptr : section->FirstChildElement();
+           one != nullptr; one = one->NextSiblingElement()) {
+        count += is_mjcf_loop(*one) ? 0 : 1;
+      }
+      if (count > 0) {
         skeleton_.left_out.push_back("<" + std::string(part.name) + "> with " + std::to_string(count) +
                                      (count == 1 ? " element" : " elements") +
                                      (*part.advice != '\0' ? std::string(": ") + part.advice : "") + ".");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -63,6 +64,27 @@ struct ContactSphere {
   double radius = 0.0;                               ///< m
 };
 
+/// One end of a loop: a point of a link, or of the world (body -1).
+struct LoopEnd {
+  int body = -1;                                       ///< index in Skeleton::bodies; -1: the world
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< in the body's frame, m
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of a hinge (its z) and a weld, in the body's frame
+};
+
+/// What closes a chain of joints that the tree leaves open:
+///   connect  the two points coincide, p_1 = p_2;
+///   hinge    the points coincide and the ends' z axes are parallel;
+///   weld     the points and all three axes of the ends coincide;
+///   rod      a rod without mass keeps the points apart, |p_2 - p_1| = length.
+struct Loop {
+  enum class Type { connect, hinge, weld, rod } type = Type::connect;
+  std::string name;
+  std::array<LoopEnd, 2> ends;
+  double length = 0.0;  ///< of a rod, m
+  std::string file{};   ///< that states it, and where
+  int line = 0;
+};
+
 struct Skeleton {
   std::string file;
   std::vector<Body> bodies;   ///< parents before children
@@ -72,6 +94,7 @@ struct Skeleton {
   /// Joints (indices) that are the pitch of a free or ball joint: a state near +-90 degrees is refused.
   std::vector<int> charts{};
   std::vector<ContactSphere> spheres{};  ///< MJCF: geoms that may touch the ground
+  std::vector<Loop> loops{};             ///< that the file itself closes
 
   /// Is a body free to turn in all ways?
   bool floats() const { return !charts.empty(); }
@@ -196,6 +219,8 @@ struct Model {
   std::vector<Ratio> ratios;
   std::vector<Inertia> inertias;
   std::vector<Foot> feet;
+  std::vector<Loop> loops;       ///< the skeleton's and the model's own
+  std::vector<Lock> loops_near;  ///< positions of joints near which the loops are closed first
   std::vector<EffectUse> effects;
   std::vector<Sensor> sensors;
   std::vector<ContactSwitch> switches;  ///< among the file's sensors, but they measure no position

@@ -19,6 +19,8 @@ void read_ratios(const YamlNode& node, Model& model);
 void read_inertias(const YamlNode& node, Model& model);
 /// feet: points of links that may meet the ground.
 void read_feet(const YamlNode& node, Model& model);
+/// loops: what closes chains of joints, and where they are closed first.
+void read_loops(const YamlNode& node, Model& model);
 /// sensors: of positions, and contact switches; needs feet.
 void read_sensors(const YamlNode& node, Model& model);
 

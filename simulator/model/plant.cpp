@@ -44,6 +44,7 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   structure_ = make_structure();
   find_feet();
   check_mass_matrix();
+  make_loops();
 }
 
 Eigen::VectorXd Plant::full_direction(const std::string& name) const {
@@ -449,7 +450,7 @@ double Plant::velocity_of(const std::string& name, const double* x) const {
 // 1 / (a' M^-1 a): what a force along the place has to accelerate.
 double Plant::inertia_of(const std::string& name) {
   const Eigen::VectorXd a = S_.transpose() * full_direction(name);
-  const double mobility = a.dot(factor_.solve(a));
+  const double mobility = a.dot(accelerated(a));
   return mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
 }
 

@@ -10,6 +10,7 @@
 #include "contact/contact_law.h"
 #include "contact/ground_change.h"
 #include "contact/terrain.h"
+#include "simulator/model/loop_closure.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
 
@@ -66,11 +67,15 @@ struct Stiffest {
 /// leave: q = S z + q0 for the full coordinates q (joints, motors, pulleys). Ratios are linear with constant
 /// coefficients, so this elimination is exact and nothing drifts:
 ///   (S' M S) d2z/dt2 = S' (Q - h).
+/// Closed loops are not linear: z then still holds the loops' own joints, and the loops hold them by forces,
+///   (S' M S) d2z/dt2 = S' (Q - h) + J' lambda,   J d2z/dt2 + (dJ/dt) dz/dt = 0,   J = dphi/dz (loop_rows.h),
+/// so that states move along phi(z) = 0; close_loops() takes off what an integrator's step leaves.
 /// Motors and pulleys turn relative to their mount; the mount's own motion adds nothing to their energy
 /// (exact for a fixed mount). Not thread-safe: one object for each thread.
 class Plant {
  public:
   /// Throws InputError when constraints contradict each other or the mass matrix is singular.
+  /// The same for loops (LoopClosure).
   Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain = {});
 
   const Model& model() const { return model_; }
@@ -90,6 +95,22 @@ class Plant {
   /// Time derivative of the state for the commands that hold now (delayed already, in command units). Throws
   /// std::runtime_error where a free or ball joint is at its chart's singularity (joint_chain.h).
   void rate(const double* x, const double* command, double* xdot);
+
+  /// Are there closed loops, so that not every x is a state of the model?
+  bool has_loops() const { return closure_ != nullptr; }
+  /// What closes them; null where there are none.
+  LoopClosure* closure() { return closure_.get(); }
+  /// Another one, for whoever outlives this plant or holds it const.
+  std::unique_ptr<LoopClosure> own_closure() const;
+  /// A position in which the loops are closed; without loops zero.
+  Eigen::VectorXd home() const;
+  /// Moves x onto the loops: positions by M^-1 J' until phi = 0 to rounding, then velocities until J w = 0.
+  /// Returns the largest of phi before, m. Throws std::runtime_error where they cannot be closed.
+  double close_loops(double* x);
+  /// Largest of phi, m, and of J w, m/s, at x.
+  Eigen::Vector2d loop_errors(const double* x);
+  /// d(close_loops(x))/dx over positions and velocities where x is closed, 2 positions x 2 positions.
+  Eigen::MatrixXd closing_slope(const double* x);
 
   /// d2z/dt2 of a start at rest under gravity alone, without any effect's force.
   Eigen::VectorXd fall(const double* x);
@@ -314,6 +335,15 @@ class Plant {
   void deliver_torques(const double* x, const double* command, double* xdot);
   void find_gear_loads(const double* x);
   void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
+  void make_loops();
+  Eigen::VectorXd move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
+                                   const Eigen::VectorXd& x);
+  bool planar_base_is_bent() const;
+  void hold_loops();
+  void accelerate(const Eigen::VectorXd& Q, Eigen::VectorXd& acceleration) const;
+  void accelerate_in_place(Eigen::MatrixXd& Q) const;
+  Eigen::VectorXd accelerated(const Eigen::VectorXd& Q) const;
+  void loop_tangent(const double* x, const Eigen::VectorXd& Q, const Eigen::VectorXd& a0);
   void rigid_at(const double* x);
   void factor_at(const double* x);
   double spectral_radius(const double* x);
@@ -377,6 +407,10 @@ class Plant {
   Eigen::Matrix3Xd foot_V_;  // d(foot's velocity)/dz; without columns where it is not asked for
   Eigen::VectorXd foot_row_, moved_x_, up_, down_;
   std::vector<double> switch_values_;
+  std::unique_ptr<LoopClosure> closure_;           // null: no loops
+  Eigen::MatrixXd loop_J_, loop_Y_, loop_tree_J_;  // dphi/dz, M^-1 J' at the position of factor_
+  Eigen::VectorXd loop_bias_;                      // (dJ/dt) w
+  Eigen::LLT<Eigen::MatrixXd> loop_factor_;        // J M^-1 J'
   std::vector<Variant> variants_;  // perturbed structures, one for each structural parameter asked for
 };
 

@@ -390,7 +390,7 @@ void Plant::ground_parameter_tangent(const FootSlot& slot, const double* x, Para
   change_ground();
   column += (up - now) / step;
   column.segment(nz_, nz_) +=
-      factor_.solve(foot_jacobian(slot, before).transpose() * ((after.force - before.force) / step));
+      accelerated(foot_jacobian(slot, before).transpose() * ((after.force - before.force) / step));
 }
 
 }  // namespace plumbline::model

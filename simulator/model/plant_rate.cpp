@@ -91,7 +91,7 @@ void Plant::find_gear_loads(const double* x) {
   for (int pass = 0; pass < kPasses; ++pass) {
     Q_ = -h_;
     add_forces(x, Q_, unused.data());
-    acceleration_ = factor_.solve(Q_);
+    accelerate(Q_, acceleration_);
     Eigen::VectorXd load = torque_;
     for (const ForceSlot& slot : forces_) {
       if (slot.active && slot.at_motor) {
@@ -152,6 +152,9 @@ void Plant::factor_at(const double* x) {
   if (!factored_) {
     factor_.compute(M_);
     factored_ = true;
+    if (has_loops()) {
+      hold_loops();
+    }
   }
 }
 
@@ -195,7 +198,7 @@ void Plant::rate(const double* x, const double* command, double* xdot) {
   check_charts();
   Q_ = -h_;
   add_forces(x, Q_, xdot);
-  acceleration_ = factor_.solve(Q_);
+  accelerate(Q_, acceleration_);
   for (int i = 0; i < nz_; ++i) {
     xdot[i] = x[nz_ + i];
     xdot[nz_ + i] = acceleration_[i];
@@ -206,7 +209,9 @@ Eigen::VectorXd Plant::fall(const double* x) {
   Eigen::VectorXd at_rest = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   at_rest.segment(nz_, nz_).setZero();
   factor_at(at_rest.data());
-  return factor_.solve(-h_);
+  Eigen::VectorXd acceleration;
+  accelerate(-h_, acceleration);
+  return acceleration;
 }
 
 void Plant::raise_speeds(const double* x, double* speeds) {
@@ -336,7 +341,7 @@ Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& z, const double* comma
     rate(x.data(), command, xdot.data());
     const Eigen::VectorXd force = M_ * xdot.segment(nz_, nz_);
     const double scale = 1e-9 * (h_.cwiseAbs().maxCoeff() + torque_.cwiseAbs().sum() + 1e-6);
-    if (force.cwiseAbs().maxCoeff() < scale) {
+    if (force.cwiseAbs().maxCoeff() < scale && (!has_loops() || closure_->is_closed(x.head(nz_)))) {
       return x.head(nz_);
     }
     Eigen::MatrixXd K(nz_, nz_);
@@ -347,7 +352,8 @@ Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& z, const double* comma
       rate(moved.data(), command, xdot.data());
       K.col(i) = (M_ * xdot.segment(nz_, nz_) - force) / step;
     }
-    Eigen::VectorXd move = -K.colPivHouseholderQr().solve(force);
+    Eigen::VectorXd move =
+        has_loops() ? move_along_loops(K, force, x) : -K.colPivHouseholderQr().solve(force);
     const double largest = move.cwiseAbs().maxCoeff();
     x.head(nz_) += largest > 0.3 ? move * (0.3 / largest) : move;
   }

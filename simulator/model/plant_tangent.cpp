@@ -44,7 +44,12 @@ void Plant::rigid_tangent(const double* x, const double* command) {
   factor_at(x);
   Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
   add_forces(x, Q, nullptr);
-  const Eigen::VectorXd a0 = factor_.solve(Q - h_);
+  Eigen::VectorXd a0;
+  accelerate(Q - h_, a0);
+  if (has_loops()) {
+    loop_tangent(x, Q, a0);
+    return;
+  }
   Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   Eigen::MatrixXd M;
   Eigen::VectorXd h;
@@ -79,7 +84,7 @@ void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eig
     }
   }
   ground_tangent(x, change, A);
-  factor_.solveInPlace(slopes_);
+  accelerate_in_place(slopes_);
   A.middleRows(nz_, nz_) += slopes_;
 }
 
@@ -190,8 +195,8 @@ void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<
         const double minus = actuator_chain(m, moved.data(), commanded, down.data());
         moved[column] = x[column];
         A.col(column) += (up - down) / (2.0 * step);
-        A.col(column).segment(nz_, nz_) += factor_.solve(motor_lines_[static_cast<std::size_t>(m)].reduced) *
-                                           ((plus - minus) / (2.0 * step));
+        A.col(column).segment(nz_, nz_) +=
+            accelerated(motor_lines_[static_cast<std::size_t>(m)].reduced) * ((plus - minus) / (2.0 * step));
       }
     }
   }
@@ -235,7 +240,7 @@ void Plant::structure_tangent(const double* x, ParameterId id, double step, bool
     variant.dM = (M - M_) / variant.step;
     variant.dh = (h - h_) / variant.step;
   }
-  column.segment(nz_, nz_) = -factor_.solve(variant.dM * acceleration_ + variant.dh);
+  column.segment(nz_, nz_) = -accelerated(variant.dM * acceleration_ + variant.dh);
 }
 
 bool Plant::sits_at_base(int effect) const {
@@ -299,7 +304,7 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
       column.segment(slot.state, states) += (up - now) / width;
     }
   }
-  column.segment(nz_, nz_) = factor_.solve(slot.line.reduced) * force;
+  column.segment(nz_, nz_) = accelerated(slot.line.reduced) * force;
 }
 
 // A hidden state that is faster than the sample has its mean far from the middle: it is where its rate is the
@@ -361,7 +366,7 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
     }
   }
   column.segment(nz_, nz_) +=
-      factor_.solve(motor_lines_[static_cast<std::size_t>(motor)].reduced) * (acts / step);
+      accelerated(motor_lines_[static_cast<std::size_t>(motor)].reduced) * (acts / step);
   if (delay_change != 0.0) {
     // The command moves where it jumps, not in the middle of the sample.
     const double hold = sample.hold > 0.0 ? sample.hold : sample.period;

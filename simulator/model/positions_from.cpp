@@ -8,6 +8,8 @@ namespace {
 constexpr double kNoFloor = 1e-9;
 // Of a stretch of zero against the channels: never fights a sensor.
 constexpr double kWeak = 1e-6;
+// Of what opens a loop, the same.
+constexpr double kStiff = 1e3;
 
 }  // namespace
 
@@ -43,9 +45,11 @@ PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>&
     : positions_(plant.positions()),
       stretches_(plant.stretch_map().rows()),
       offsets_(static_cast<Eigen::Index>(channels.size())),
-      weights_(static_cast<Eigen::Index>(channels.size())) {
+      weights_(static_cast<Eigen::Index>(channels.size())),
+      closure_(plant.own_closure()) {
   const Eigen::Index n = offsets_.size();
-  Eigen::MatrixXd C(n + stretches_, positions_);
+  loops_ = closure_ != nullptr ? closure_->size() : 0;
+  Eigen::MatrixXd C(n + stretches_ + loops_, positions_);
   for (Eigen::Index c = 0; c < n; ++c) {
     const Observation& channel = channels[static_cast<std::size_t>(c)];
     offsets_[c] = channel.offset;
@@ -53,7 +57,11 @@ PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>&
     C.row(c) = weights_[c] * channel.row;
   }
   const double largest = n > 0 ? C.topRows(n).cwiseAbs().maxCoeff() : 1.0;
-  C.bottomRows(stretches_) = kWeak * largest * plant.stretch_map();
+  C.middleRows(n, stretches_) = kWeak * largest * plant.stretch_map();
+  if (loops_ > 0) {
+    rows_ = C.topRows(n + stretches_);
+    C.bottomRows(loops_) = kStiff * largest * closure_->jacobian(closure_->home());
+  }
   solver_.compute(C);
 }
 
@@ -63,18 +71,45 @@ Eigen::VectorXd PositionsFrom::deviations_unstretched() const {
   return solver_.pseudoInverse().leftCols(offsets_.size()).rowwise().norm();
 }
 
-Eigen::MatrixXd PositionsFrom::solve(const Eigen::MatrixXd& weighted) const {
+Eigen::MatrixXd PositionsFrom::right_side(const Eigen::MatrixXd& weighted) const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(weighted.rows() + stretches_, weighted.cols());
   right.topRows(weighted.rows()) = weighted;
-  return solver_.solve(right);
+  return right;
+}
+
+Eigen::MatrixXd PositionsFrom::solve(const Eigen::MatrixXd& weighted) const {
+  return solver_.solve(right_side(weighted));
 }
 
 Eigen::MatrixXd PositionsFrom::positions(const Eigen::MatrixXd& values) const {
-  return solve(weights_.asDiagonal() * (values.colwise() - offsets_));
+  const Eigen::MatrixXd weighted = weights_.asDiagonal() * (values.colwise() - offsets_);
+  if (closure_ == nullptr) {
+    return solve(weighted);
+  }
+  const Eigen::MatrixXd right = right_side(weighted);
+  Eigen::MatrixXd found(positions_, values.cols());
+  Eigen::VectorXd z = closure_->home();
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    if (!closure_->close(rows_, right.col(k), z)) {
+      z = closure_->home();  // noise has led it astray: once more from where the loops are known to close
+      closure_->close(rows_, right.col(k), z);
+    }
+    found.col(k) = z;
+  }
+  return found;
 }
 
-Eigen::MatrixXd PositionsFrom::rates(const Eigen::MatrixXd& values) const {
-  return solve(weights_.asDiagonal() * values);
+Eigen::MatrixXd PositionsFrom::rates(const Eigen::MatrixXd& values, const Eigen::MatrixXd& positions) const {
+  const Eigen::MatrixXd weighted = weights_.asDiagonal() * values;
+  if (closure_ == nullptr) {
+    return solve(weighted);
+  }
+  const Eigen::MatrixXd right = right_side(weighted);
+  Eigen::MatrixXd found(positions_, values.cols());
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    found.col(k) = closure_->velocities(rows_, right.col(k), positions.col(k));
+  }
+  return found;
 }
 
 }  // namespace plumbline::model

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/QR>
+#include <memory>
 
 #include "simulator/model/plant.h"
 
@@ -21,7 +22,9 @@ Observation observe_sensor(const Plant& plant, int sensor);
 Observation observe_place(const Plant& plant, const std::string& name, double deviation);
 
 /// Weighted least squares: min sum ((row z + offset - value) / deviation)^2. A stretch that no channel sees
-/// is zero; what else none sees stays at zero, see determined().
+/// is zero; what else none sees stays at zero, see determined(). Of a model with loops, among the positions
+/// that close them, each sample from the one before; ranks and deviations are those where the loops are
+/// closed first.
 class PositionsFrom {
  public:
   PositionsFrom(const Plant& plant, const std::vector<Observation>& channels);
@@ -37,14 +40,18 @@ class PositionsFrom {
 
   /// z, positions x samples, from values, channels x samples.
   Eigen::MatrixXd positions(const Eigen::MatrixXd& values) const;
-  /// dz/dt from the channels' rates.
-  Eigen::MatrixXd rates(const Eigen::MatrixXd& values) const;
+  /// dz/dt from the channels' rates at these positions.
+  Eigen::MatrixXd rates(const Eigen::MatrixXd& values, const Eigen::MatrixXd& positions) const;
 
  private:
   Eigen::MatrixXd solve(const Eigen::MatrixXd& weighted) const;
+  Eigen::MatrixXd right_side(const Eigen::MatrixXd& weighted) const;
 
   Eigen::Index positions_, stretches_;
+  Eigen::Index loops_ = 0;  // rows that close them
   Eigen::VectorXd offsets_, weights_;
+  std::shared_ptr<LoopClosure> closure_;  // null: no loops
+  Eigen::MatrixXd rows_;                  // of channels and stretches, where there are loops
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
 };
 

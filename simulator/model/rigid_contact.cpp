@@ -17,6 +17,11 @@ RigidContact::RigidContact(Plant& plant)
       kinematics_(plant),
       rate_(Eigen::VectorXd::Zero(plant.states())),
       no_command_(Eigen::VectorXd::Zero(plant.motors())) {
+  if (plant.has_loops()) {
+    throw InputError(
+        plant.model().file + ": loop " + plant.model().loops.front().name +
+        ": found a closed loop of a robot on rigid ground, expected a tree, or laws of the ground");
+  }
   for (const Foot& foot : plant.model().feet) {
     if (foot.radius > 0.0) {
       throw InputError(plant.model().file + ": foot " + foot.name + ": found a radius of " +

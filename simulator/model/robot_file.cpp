@@ -59,7 +59,7 @@ void read_floating_base(const YamlNode& node, Model& model) {
 
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
   root.allow_keys({"plumbline", "robot", "skeleton", "floating_base", "gravity", "masses", "coordinates",
-                   "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "effects",
+                   "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "loops", "effects",
                    "joint_dynamics"});
   Model model;
   model.file = root.file();
@@ -76,6 +76,8 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   check_ratios(root, model);
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "feet", read_feet, model);
+  model.loops = model.skeleton.loops;
+  read_section(root, "loops", read_loops, model);
   read_section(root, "sensors", read_sensors, model);
   if (const auto effects = root.find("effects")) {
     read_effects(*effects, catalogue, model);

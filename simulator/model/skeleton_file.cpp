@@ -39,6 +39,7 @@ class TreeBuilder {
     while (add_children(skeleton)) {
     }
     refuse_loose_links();
+    close_loops(skeleton);
     refuse_moving_massless(skeleton);
   }
 
@@ -60,11 +61,52 @@ class TreeBuilder {
       }
       int& inboard = inboard_[static_cast<std::size_t>(child)];
       if (inboard >= 0) {
-        xml_.refuse({name, xml_.line_of_joint(name)},
-                    "link " + joints_[j].child + " as the child of a second joint (a closed loop)",
-                    "a tree: each link the child of one joint");
+        refuse_unless_it_closes(joints_[j]);
+        closing_.push_back(j);
+        continue;
       }
       inboard = static_cast<int>(j);
+    }
+  }
+
+  /// A second joint to a link closes a loop.
+  void refuse_unless_it_closes(const LooseJoint& loose) const {
+    const bool slides = loose.joint.type == JointType::prismatic;
+    if ((loose.kind != LooseJoint::Kind::single && loose.kind != LooseJoint::Kind::ball) || slides) {
+      const std::string& name = loose.joint.name;
+      xml_.refuse({name, xml_.line_of_joint(name)},
+                  "link " + loose.child + " as the child of a second joint (a closed loop) that is " +
+                      (slides ? "prismatic" : "of several degrees of freedom"),
+                  "a second joint that is revolute, ball or fixed; or exchange it with the first");
+    }
+  }
+
+  void close_loops(Skeleton& skeleton) const {
+    for (const std::size_t j : closing_) {
+      const LooseJoint& loose = joints_[j];
+      const bool ball = loose.kind == LooseJoint::Kind::ball;
+      const bool fixed = !ball && loose.joint.type == JointType::fixed;
+      Loop loop;
+      loop.name = loose.joint.name;
+      loop.file = xml_.file();
+      loop.line = xml_.line_of_joint(loop.name);
+      loop.type = ball ? Loop::Type::connect : fixed ? Loop::Type::weld : Loop::Type::hinge;
+      const Eigen::Quaterniond about = Eigen::Quaterniond::FromTwoVectors(
+          Eigen::Vector3d::UnitZ(), ball || fixed ? Eigen::Vector3d::UnitZ() : loose.joint.axis);
+      const auto child = static_cast<std::size_t>(link_index(loose.child));
+      const int parent = loose.parent == "world" ? -1 : link_index(loose.parent);
+      const auto end = [&](int body, const Eigen::Isometry3d& X) {
+        return LoopEnd{body, X.translation(), X.linear() * about.toRotationMatrix()};
+      };
+      loop.ends = {parent < 0 ? end(-1, X_WM_ * loose.X_MJ)
+                              : end(index_[static_cast<std::size_t>(parent)],
+                                    links_[static_cast<std::size_t>(parent)].X_ML.inverse() * loose.X_MJ),
+                   end(index_[child], links_[child].X_ML.inverse() * loose.X_MJ)};
+      if (loose.joint.damping > 0.0 || loose.joint.friction > 0.0) {
+        skeleton.left_out.push_back("The damping and friction of joint " + loop.name +
+                                    ", which closes a loop.");
+      }
+      skeleton.loops.push_back(std::move(loop));
     }
   }
 
@@ -187,8 +229,9 @@ class TreeBuilder {
   std::vector<LooseLink> links_;
   std::vector<LooseJoint> joints_;
   Eigen::Isometry3d X_WM_;
-  std::vector<int> inboard_;  // joint of each link, -1: none
-  std::vector<int> index_;    // body of each link, -1: not yet placed
+  std::vector<int> inboard_;          // joint of each link, -1: none
+  std::vector<std::size_t> closing_;  // joints to links that have one already
+  std::vector<int> index_;            // body of each link, -1: not yet placed
 };
 
 LooseLink read_link(const sdf::Link& link, const SkeletonXml& xml) {

@@ -170,6 +170,15 @@ Eigen::Vector3d TreeDynamics::station_velocity(int body, const Eigen::Vector3d& 
   return V.tail<3>() + V.head<3>().cross(p_W);
 }
 
+Eigen::Vector3d TreeDynamics::station_acceleration(int body, const Eigen::Vector3d& p_W) const {
+  const Vector6& A = acceleration_[static_cast<std::size_t>(body)];
+  return A.tail<3>() + A.head<3>().cross(p_W) + angular_velocity(body).cross(station_velocity(body, p_W));
+}
+
+Eigen::Vector3d TreeDynamics::angular_velocity(int body) const {
+  return velocity_[static_cast<std::size_t>(body)].head<3>();
+}
+
 void TreeDynamics::add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                              Eigen::VectorXd& Q) const {
   Vector6 wrench;

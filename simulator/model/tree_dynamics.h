@@ -45,6 +45,9 @@ class TreeDynamics {
   /// Position and velocity in the world of a point fixed on a body, m and m/s.
   Eigen::Vector3d station(int body, const Eigen::Vector3d& p_B) const;
   Eigen::Vector3d station_velocity(int body, const Eigen::Vector3d& p_W) const;
+  /// Acceleration of a point fixed on a body at dv/dt = 0, m/s^2, and the body's angular velocity, rad/s.
+  Eigen::Vector3d station_acceleration(int body, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d angular_velocity(int body) const;
   /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.
   void add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                  Eigen::VectorXd& Q) const;

@@ -23,8 +23,24 @@ double* find(std::vector<Named>& list, const std::string& name) {
   return nullptr;
 }
 
+/// Positions, or velocities at the positions `at`, that keep the loops closed.
+Eigen::VectorXd on_loops(model::Plant& plant, const Eigen::MatrixXd& C, const Eigen::VectorXd& y,
+                         bool velocities, const Eigen::VectorXd& at) {
+  if (velocities) {
+    return plant.closure()->velocities(C, y, at);
+  }
+  Eigen::VectorXd z = plant.home();
+  if (!plant.closure()->close(C, y, z)) {
+    throw std::runtime_error(
+        "the start cannot be reached: no position with these values closes the loops of " +
+        plant.model().file);
+  }
+  return z;
+}
+
 /// Independent coordinates that give the named ones their values and leave no cable stretched.
-Eigen::VectorXd solve_for(model::Plant& plant, const std::vector<Named>& wanted, bool velocities) {
+Eigen::VectorXd solve_for(model::Plant& plant, const std::vector<Named>& wanted, bool velocities,
+                          const Eigen::VectorXd& at = {}) {
   const Eigen::Index n = plant.positions();
   const auto rows = static_cast<Eigen::Index>(wanted.size());
   const Eigen::MatrixXd& stretch = plant.stretch_map();
@@ -41,15 +57,20 @@ Eigen::VectorXd solve_for(model::Plant& plant, const std::vector<Named>& wanted,
     y[r] = value - (velocities ? 0.0 : plant.position_of(name, x.data()));
   }
   C.bottomRows(stretch.rows()) = stretch;
+  if (plant.has_loops()) {
+    return on_loops(plant, C, y, velocities, at);
+  }
   return C.completeOrthogonalDecomposition().solve(y);
 }
 
-void check(model::Plant& plant, const std::vector<Named>& wanted, const Eigen::VectorXd& x) {
+void check(model::Plant& plant, const std::vector<Named>& wanted, const Eigen::VectorXd& x,
+           bool velocities = false) {
   for (const auto& [name, value] : wanted) {
-    const double reached = plant.position_of(name, x.data());
+    const double reached = velocities ? plant.velocity_of(name, x.data()) : plant.position_of(name, x.data());
     if (std::abs(reached - value) > kReached) {
-      throw std::runtime_error("the start cannot be reached: " + name + " would be " +
-                               std::to_string(reached) + ", not " + std::to_string(value));
+      throw std::runtime_error(
+          "the start cannot be reached: " + std::string(velocities ? "the speed of " : "") + name +
+          " would be " + std::to_string(reached) + ", not " + std::to_string(value));
     }
   }
 }
@@ -88,7 +109,8 @@ Eigen::VectorXd start_state(model::Plant& plant, const Start& start) {
       *find(pose, start.height) += (deepest + start.clearance) / start.height_arm;
     }
   }
-  std::vector<Named> motion = pose;
+  // Where loops tie the pose's coordinates together, those that are not asked to move follow the others.
+  std::vector<Named> motion = plant.has_loops() ? std::vector<Named>() : pose;
   for (auto& [name, value] : motion) {
     value = 0.0;
   }
@@ -96,7 +118,10 @@ Eigen::VectorXd start_state(model::Plant& plant, const Start& start) {
     double* known = find(motion, name);
     known != nullptr ? void(*known = value) : void(motion.emplace_back(name, value));
   }
-  x.segment(n, n) = solve_for(plant, motion, true);
+  x.segment(n, n) = solve_for(plant, motion, true, x.head(n));
+  if (plant.has_loops()) {
+    check(plant, motion, x, true);
+  }
   if (!lifted) {
     check(plant, pose, x);
   }

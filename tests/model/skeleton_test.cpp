@@ -189,8 +189,11 @@ TEST_F(SkeletonTest, RefusesBadSkeletonsInOneLine) {
        "once"},
       {sdf, "<link name=\"lower\">", "<link>", 17, "link", "no name", "name"},
       {sdf, "<parent>upper</parent>", "<parent>uper</parent>", 35, "elbow", "", "libsdformat"},
-      {sdf, "<child>lower</child>", "<child>cart</child>", 35, "elbow",
-       "link cart as the child of a second joint", "a tree"},
+      {sdf, "<joint name=\"elbow\"",
+       "<joint name=\"b\" type=\"prismatic\"><parent>world</parent><child>upper</child><axis><xyz>1 0 0</xyz>"
+       "</axis></joint><joint name=\"elbow\"",
+       35, "b", "link upper as the child of a second joint (a closed loop) that is prismatic",
+       "revolute, ball or fixed"},
       {sdf, "<parent>cart</parent>", "<parent>lower</parent>", 10, "upper", "a link that no chain of joints",
        "floating_base: true"},
       {sdf, "<axis><xyz>1 0 0</xyz></axis>", "", 25, "rail", "", "expected"},

@@ -23,8 +23,10 @@ Freedom freedom_of(const model::Model& model, const std::vector<validation::Lock
   for (const validation::Lock& lock : locks) {
     held.push_back({lock.at, lock.value});
   }
-  const model::Plant plant(model, held);  // refuses contradictory ratios and singular mass matrices
-  return {plant.positions(), plant.states()};
+  model::Plant plant(model,
+                     held);  // refuses contradictory ratios, singular mass matrices, loops that never close
+  const int tied = plant.has_loops() ? plant.closure()->size() : 0;
+  return {plant.positions() - tied, plant.states()};
 }
 
 json to_json(const Model& model, const Freedom& freedom) {

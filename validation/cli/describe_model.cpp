@@ -74,6 +74,22 @@ void print_drivetrain(const Model& model) {
   print_table({"name", "position"}, rows);
 }
 
+/// "connect", "coupler", "rocker"
+void print_loops(const Model& model) {
+  Rows rows;
+  const auto name = [&](const model::LoopEnd& end) {
+    return end.body < 0 ? std::string("world")
+                        : model.skeleton.bodies[static_cast<std::size_t>(end.body)].name;
+  };
+  for (const model::Loop& loop : model.loops) {
+    rows.push_back({loop.name, model::to_string(loop.type), name(loop.ends[0]), name(loop.ends[1])});
+  }
+  if (!rows.empty()) {
+    fmt::print("\nClosed loops:\n\n");
+    print_table({"name", "type", "between", "and"}, rows);
+  }
+}
+
 void print_effects(const Model& model) {
   Rows rows;
   for (const model::EffectUse& use : model.effects) {
@@ -123,6 +139,7 @@ void print(const Model& model, const Freedom& freedom) {
   fmt::print("  {} bodies, {:g} kg in all; {} independent coordinates, {} states\n",
              model.skeleton.bodies.size(), mass, freedom.coordinates, freedom.states);
   print_drivetrain(model);
+  print_loops(model);
   print_effects(model);
   print_sensors(model);
   fmt::print("\nPlaces for effects:\n\n");

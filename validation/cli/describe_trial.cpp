@@ -20,8 +20,14 @@ using model::reading_unit;
 
 /// Coordinates that the measured positions do not determine.
 std::vector<std::string> unseen_coordinates(const Model& model, const Trial& trial) {
-  const model::Plant plant(model, trial.locks);
+  model::Plant plant(model, trial.locks);
   std::vector<Eigen::RowVectorXd> rows;
+  if (plant.has_loops()) {  // as the loops are closed first
+    const Eigen::MatrixXd& J = plant.closure()->jacobian(plant.home());
+    for (Eigen::Index r = 0; r < J.rows(); ++r) {
+      rows.emplace_back(J.row(r));
+    }
+  }
   for (const validation::Measured& channel : trial.measured) {
     const int sensor = model.sensor_index(channel.sensor);
     if (model.sensors[static_cast<std::size_t>(sensor)].shows_position()) {

@@ -109,6 +109,20 @@ json sensors_json(const Model& model) {
   return list;
 }
 
+/// A link's name, or "world".
+json loops_json(const Model& model) {
+  json list = json::array();
+  for (const model::Loop& loop : model.loops) {
+    json one{{"name", loop.name}, {"type", to_string(loop.type)}, {"between", json::array()}};
+    for (const model::LoopEnd& end : loop.ends) {
+      one["between"].push_back(end.body < 0 ? "world"
+                                            : model.skeleton.bodies[static_cast<std::size_t>(end.body)].name);
+    }
+    list.push_back(one);
+  }
+  return list;
+}
+
 json switches_json(const Model& model) {
   json list = json::array();
   for (const model::ContactSwitch& one : model.switches) {
@@ -148,6 +162,7 @@ nlohmann::json model_json(const model::Model& model) {
           {"pulleys", pulleys_json(model)},
           {"ratios", ratios_json(model)},
           {"inertias", inertias_json(model)},
+          {"loops", loops_json(model)},
           {"effects", effects_json(model)},
           {"sensors", sensors_json(model)},
           {"contact_switches", switches_json(model)},

@@ -105,6 +105,9 @@ std::string no_inverse(const model::Plant& plant, const std::vector<int>& moving
   if (plant.states() > 2 * plant.positions()) {
     return "the model has hidden states, which the measured positions do not show";
   }
+  if (plant.has_loops()) {
+    return "the model has closed loops, whose forces no sensor shows";
+  }
   if (static_cast<int>(moving.size()) != plant.positions()) {
     return std::to_string(plant.positions()) + " independent positions but " + std::to_string(moving.size()) +
            (moving.size() == 1 ? " motor" : " motors") + " that can move";

@@ -50,7 +50,8 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   const Eigen::Index nz = plant_.positions();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
   x.head(nz) = from_channels_.positions(with_starts(local.row(0).transpose(), false));
-  x.segment(nz, nz) = from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true));
+  x.segment(nz, nz) =
+      from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true), x.head(nz));
   if (!trial_.start.empty()) {
     fall_freely(window, x);
   } else if (trial_.switches.empty() && plant_.meets_ground()) {

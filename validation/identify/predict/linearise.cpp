@@ -61,6 +61,10 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   out.Jp.setZero(out.r.size(), np);
   Sensitivity sensitivity(Eigen::MatrixXd::Identity(nx, nx + np));
   Eigen::MatrixXd& S = sensitivity.S();
+  if (plant_.has_loops()) {
+    const Eigen::Index moving = 2 * plant_.positions();
+    S.topLeftCorner(moving, moving) = plant_.closing_slope(states_.col(0).data());
+  }
   const std::vector<int> carried = plant_.carried_states();
   if (!carried.empty()) {
     S.rightCols(np) = hidden_slopes(window, ids, steps);

@@ -92,7 +92,7 @@ void Predictor::measure_motion() {
   }
   motion_.resize(2 * nz, n);
   motion_.topRows(nz) = measured_positions();
-  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true));
+  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true), motion_.topRows(nz));
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
@@ -173,6 +173,9 @@ bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
   integrate::Integrator integrator(ode, options);
   refresh_commands();
   states_.col(0) = x0;
+  if (plant_.has_loops()) {
+    plant_.close_loops(states_.col(0).data());  // a search moves states off them
+  }
   carry_hidden(window, states_.col(0).data());
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));

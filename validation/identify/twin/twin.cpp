@@ -98,6 +98,30 @@ std::vector<model::Lock> locks_of(const model::Model& model, const Experiment& e
   return locks;
 }
 
+namespace {
+
+/// The position that closes the loops and has the start's values.
+Eigen::VectorXd on_loops(model::Plant& plant, const Experiment& experiment, const Eigen::MatrixXd& C,
+                         const Eigen::VectorXd& y) {
+  constexpr double kReached = 1e-6;  // rad or m
+  Eigen::VectorXd z = plant.home();
+  const bool closed = plant.closure()->close(C, y, z);
+  const auto starts = static_cast<Eigen::Index>(experiment.start.size());
+  if (!closed || !((C * z - y).head(starts).norm() <= kReached)) {
+    throw InputError({experiment.file, 0, "start"}, "positions at which the model's loops cannot be closed",
+                     "positions that the loops allow; coordinates that are not named follow the others");
+  }
+  return z;
+}
+
+void settle_at_start(const model::Plant& plant, const Experiment& experiment, Eigen::VectorXd& x) {
+  const Eigen::MatrixXd samples = command_samples(plant.model(), experiment.commands, experiment.time.size());
+  const Eigen::VectorXd first = samples.col(0);
+  plant.settle(first.data(), x.data());
+}
+
+}  // namespace
+
 Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
   const Eigen::Index nz = plant.positions();
   const auto starts = static_cast<Eigen::Index>(experiment.start.size());
@@ -119,11 +143,15 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
     right[i] = start.position - offset;
   }
   C.middleRows(starts, stretch.rows()) = 1e-2 * stretch;
+  if (plant.has_loops()) {
+    const Eigen::Index named = starts + stretch.rows();
+    x.head(nz) = on_loops(plant, experiment, C.topRows(named), right.head(named));
+    settle_at_start(plant, experiment, x);
+    return x;
+  }
   C.bottomRows(nz) = 1e-7 * Eigen::MatrixXd::Identity(nz, nz);
   x.head(nz) = C.colPivHouseholderQr().solve(right);
-  const Eigen::MatrixXd samples = command_samples(plant.model(), experiment.commands, experiment.time.size());
-  const Eigen::VectorXd first = samples.col(0);
-  plant.settle(first.data(), x.data());
+  settle_at_start(plant, experiment, x);
   return x;
 }
 

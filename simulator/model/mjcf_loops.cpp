@@ -1,0 +1,152 @@
+#include "simulator/model/mjcf_loops.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "simulator/model/body_poses.h"
+#include "simulator/model/mjcf_values.h"
+#include "simulator/trace/error.h"
+
+namespace plumbline::model {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using tinyxml2::XMLElement;
+
+class MjcfLoops : private MjcfValues {
+ public:
+  MjcfLoops(const std::string& file, const XMLElement& root, Skeleton& skeleton)
+      : MjcfValues(file), skeleton_(skeleton) {
+    defaults_ = MjcfDefaults(root);
+    const auto moves = [](const Joint& joint) { return joint.type != JointType::fixed; };
+    const auto joints = std::count_if(skeleton.joints.begin(), skeleton.joints.end(), moves);
+    poses_ = body_poses(skeleton, Eigen::VectorXd::Zero(joints));
+  }
+
+  void read(const XMLElement& element) {
+    const char* active = defaults_.attribute(element, "active", "");
+    if (active != nullptr && std::string(active) == "false") {
+      return;
+    }
+    const char* name = element.Attribute("name");
+    Loop loop;
+    loop.name = name != nullptr
+                    ? name
+                    : std::string(element.Name()) + "_" + std::to_string(skeleton_.loops.size() + 1);
+    loop.file = file_;
+    loop.line = element.GetLineNum();
+    const int first = body_of(element, "body1", true);
+    const int second = body_of(element, "body2", false);
+    refuse_if_it_floats(element, first, second);
+    const Isometry3d between = pose_of(second).inverse() * pose_of(first);  // X_21
+    if (std::string(element.Name()) == "connect") {
+      const char* anchor = element.Attribute("anchor");
+      if (anchor == nullptr) {
+        refuse(element, "no anchor", "the point in the frame of body1");
+      }
+      const Vector3d point = vector(element, anchor, "anchor");
+      loop.type = Loop::Type::connect;
+      loop.ends = {LoopEnd{first, point}, LoopEnd{second, between * point}};
+    } else {
+      const Isometry3d second_in_first = relative_pose(element, between.inverse());
+      loop.type = Loop::Type::weld;
+      loop.ends = {LoopEnd{first, second_in_first.translation(), second_in_first.linear()}, LoopEnd{second}};
+    }
+    skeleton_.loops.push_back(std::move(loop));
+  }
+
+ private:
+  int body_of(const XMLElement& element, const char* which, bool needed) const {
+    const char* name = element.Attribute(which);
+    if (name == nullptr) {
+      if (needed) {
+        refuse(element, std::string("no ") + which, "two bodies, body1 and body2 (sites are not read)");
+      }
+      return -1;
+    }
+    std::vector<std::string> names{"world"};
+    for (std::size_t b = 0; b < skeleton_.bodies.size(); ++b) {
+      if (skeleton_.bodies[b].name == name) {
+        return static_cast<int>(b);
+      }
+      names.push_back(skeleton_.bodies[b].name);
+    }
+    if (names.front() != name) {
+      refuse(element, std::string(which) + "=\"" + name + "\"",
+             "the name of a body" + nearest_names(name, names));
+    }
+    return -1;
+  }
+
+  Isometry3d pose_of(int body) const {
+    return body < 0 ? Isometry3d::Identity() : poses_[static_cast<std::size_t>(body)];
+  }
+
+  /// The body of a chain to the world that hangs on it, and whether a free joint is on the way.
+  struct Root {
+    int body = -1;
+    bool floats = false;
+  };
+  Root root_of(int body) const {
+    Root root;
+    for (; body >= 0; body = skeleton_.joints[static_cast<std::size_t>(body)].parent) {
+      root.body = body;
+      root.floats = root.floats || skeleton_.joints[static_cast<std::size_t>(body)].floats;
+    }
+    return root;
+  }
+
+  void refuse_if_it_floats(const XMLElement& element, int first, int second) const {
+    const Root one = root_of(first);
+    const Root other = root_of(second);
+    if (one.body != other.body && (one.floats || other.floats)) {
+      refuse(element, "a loop between a body that floats and one that does not hang on it",
+             "both points stated under `loops` of the model file");
+    }
+  }
+
+  Isometry3d relative_pose(const XMLElement& element, const Isometry3d& of_file) const {
+    const char* text = element.Attribute("relpose");
+    if (text == nullptr) {
+      return of_file;
+    }
+    const std::vector<double> v = numbers(element, text, "relpose");
+    if (v.size() != 7) {
+      refuse(element, "relpose=\"" + std::string(text) + "\"", "seven numbers: position and quaternion");
+    }
+    const Eigen::Quaterniond turn(v[3], v[4], v[5], v[6]);
+    if (!(turn.norm() > 0.0)) {
+      return of_file;  // MuJoCo's way to ask for it
+    }
+    Isometry3d X = Isometry3d::Identity();
+    X.linear() = turn.normalized().toRotationMatrix();
+    X.translation() = Vector3d(v[0], v[1], v[2]);
+    return X;
+  }
+
+  Skeleton& skeleton_;
+  std::vector<Isometry3d> poses_;
+};
+
+}  // namespace
+
+bool is_mjcf_loop(const XMLElement& element) {
+  const std::string kind = element.Name();
+  return kind == "connect" || kind == "weld";
+}
+
+void read_mjcf_loops(const std::string& file, const XMLElement& root, Skeleton& skeleton) {
+  MjcfLoops loops(file, root, skeleton);
+  for (const XMLElement* section = root.FirstChildElement("equality"); section != nullptr;
+       section = section->NextSiblingElement("equality")) {
+    for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
+         one = one->NextSiblingElement()) {
+      if (is_mjcf_loop(*one)) {
+        loops.read(*one);
+      }
+    }
+  }
+}
+
+}  // namespace plumbline::model

@@ -1,0 +1,75 @@
+// Derivatives of windows of a robot with a closed loop.
+#include <gtest/gtest.h>
+
+#include "simulator/model/known_effects.h"
+#include "simulator/model/robot_file.h"
+#include "validation/fit/free_parameters.h"
+#include "validation/predict/windows.h"
+#include "validation/twin/twin.h"
+
+namespace plumbline::validation {
+namespace {
+
+constexpr const char* kFolder = PLUMBLINE_ROOT "/tests/robots/four_bar/";
+
+model::Model leg() {
+  model::Model model = model::read_model(std::string(kFolder) + "model.yaml", model::known_effects());
+  model.effects.push_back(parse_effect("viscous@knee:damping=0.05", model, model::known_effects()));
+  return model;
+}
+
+// The oracle is differences of whole predictions, which close the loop where they begin and after every step.
+TEST(Loops, DerivativesAgreeWithDifferences) {
+  constexpr double kStep = 1e-5;
+  constexpr double kShare = 0.02;  // the rigid parts are those of each sample's beginning
+  const model::Model model = leg();
+  const Trial trial =
+      twin(model, read_experiment(std::string(kFolder) + "experiments/steps.yaml", model), {});
+  const std::vector<FreeParameter> parameters = free_parameters(model);
+  PredictOptions options;
+  options.relative_tolerance = 1e-10;
+  Predictor predictor(model, trial, options);
+  const Window window{0, 900, 400, {}};
+  const Eigen::VectorXd x0 = predictor.initial_state(window);
+  EXPECT_LT(predictor.plant().loop_errors(x0.data()).maxCoeff(), 1e-12);
+  const Linearisation found = predictor.linearise(window, x0, parameters);
+  for (Eigen::Index i = 0; i < x0.size(); ++i) {
+    const Eigen::VectorXd unit = kStep * Eigen::VectorXd::Unit(x0.size(), i);
+    const Eigen::VectorXd below = predictor.residual(window, x0 - unit);
+    const Eigen::VectorXd differences = (below - predictor.residual(window, x0 + unit)) / (2.0 * kStep);
+    EXPECT_LT((found.Jx.col(i) - differences).norm(), kShare * differences.norm()) << "state " << i;
+  }
+  ASSERT_FALSE(parameters.empty());
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    model::Plant& plant = predictor.plant();
+    const double value = plant.value(parameters[p].id);
+    const double change = 1e-3 * value;
+    parameters[p].set(plant, value - change);
+    const Eigen::VectorXd below = predictor.residual(window, x0);
+    parameters[p].set(plant, value + change);
+    const Eigen::VectorXd differences = (below - predictor.residual(window, x0)) / (2.0 * change);
+    parameters[p].set(plant, value);
+    EXPECT_LT((found.Jp.col(static_cast<Eigen::Index>(p)) - differences).norm(), kShare * differences.norm())
+        << parameters[p].label;
+  }
+}
+
+// From the readings alone the state is the twin's own, to the encoders' counts.
+TEST(Loops, StatesComeFromTheEncoders) {
+  const model::Model model = leg();
+  const Trial trial =
+      twin(model, read_experiment(std::string(kFolder) + "experiments/swing.yaml", model), {});
+  Predictor predictor(model, trial, {});
+  const Eigen::MatrixXd z = predictor.measured_positions();
+  double open = 0.0;
+  for (Eigen::Index k = 0; k < z.cols(); k += 50) {
+    open = std::max(open, predictor.plant().closure()->errors(z.col(k)).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(open, 1e-12);
+  const Eigen::VectorXd r = predictor.residual({0, 0, 500, {}}, predictor.initial_state({0, 0, 500, {}}));
+  // Floors are deviations of quantisation; a start from 25 samples' readings is good to a few of them.
+  EXPECT_LT(std::sqrt(r.squaredNorm() / static_cast<double>(r.size())), 10.0);
+}
+
+}  // namespace
+}  // namespace plumbline::validation
