@@ -42,7 +42,7 @@ endfunction()
 function(plumbline_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;PRIVATE_LIBS" ${ARGN})
   add_library(plumbline_${name} STATIC ${ARG_SOURCES})
-  target_include_directories(plumbline_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_include_directories(plumbline_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
   target_link_libraries(plumbline_${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
   set_target_properties(plumbline_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(plumbline_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
@@ -52,23 +52,15 @@ endfunction()
 # Where controllers' libraries are built, and looked for first.
 set(PLUMBLINE_CONTROLLERS ${CMAKE_BINARY_DIR}/controllers)
 
-# plumbline_controller(NAME SOURCES a.cpp ...): a controller, NAME.so in build/controllers. It exports
-# plumbline_controller() and nothing else, so that several can be loaded into one program.
+set(PLUMBLINE_CONTROLLER_INCLUDE ${CMAKE_SOURCE_DIR})
+set(PLUMBLINE_CONTROLLER_MAP ${CMAKE_SOURCE_DIR}/controllers/controller.map)
+include(PlumblineController)
+
+# plumbline_controller(NAME SOURCES a.cpp ...): a controller, NAME.so in build/controllers.
 function(plumbline_controller name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  add_library(controller_${name} MODULE ${ARG_SOURCES})
-  set_target_properties(controller_${name} PROPERTIES OUTPUT_NAME ${name} PREFIX "" SUFFIX .so
-    LIBRARY_OUTPUT_DIRECTORY ${PLUMBLINE_CONTROLLERS} C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden
-    VISIBILITY_INLINES_HIDDEN ON LINK_DEPENDS ${CMAKE_SOURCE_DIR}/controllers/controller.map)
-  target_include_directories(controller_${name} PRIVATE ${CMAKE_SOURCE_DIR})
-  # The same file wherever the project lies: its hash is the controller's identity.
-  target_compile_options(controller_${name} PRIVATE -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
-    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
-  target_link_options(controller_${name} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/controllers/controller.map)
-  if(NOT PLUMBLINE_SANITIZE)
-    target_link_options(controller_${name} PRIVATE -Wl,--no-undefined)
-  endif()
-  target_link_libraries(controller_${name} PRIVATE m)
+  plumbline_controller_target(controller_${name} ${name} ${ARG_SOURCES})
+  set_target_properties(controller_${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PLUMBLINE_CONTROLLERS})
   if(NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/")
     add_dependencies(controllers controller_${name})
   endif()

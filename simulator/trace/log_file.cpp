@@ -25,6 +25,23 @@ bool is_hdf5(const std::string& path) {
   return head == "\x89HDF\r\n\x1a\n";
 }
 
+/// A recorder of ROS writes a folder. In parts: which one, nobody but the user knows.
+std::string file_of_bag(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string extension = extension_of(entry.path().string());
+    if (extension == ".mcap" || extension == ".db3") {
+      files.push_back(entry.path().string());
+    }
+  }
+  if (files.size() != 1) {
+    throw InputError({folder, 0, ""}, "a folder with " + std::to_string(files.size()) + " bags",
+                     "a file, or a folder with one .mcap or .db3");
+  }
+  return files.front();
+}
+
 /// MATLAB's reader leaves NaN and infinities in the columns.
 LogFile from_matlab(const std::string& path) {
   LogFile log;
@@ -44,7 +61,17 @@ LogFile from_matlab(const std::string& path) {
 
 }  // namespace
 
+bool is_bag(const std::string& path) {
+  std::error_code none;
+  const std::string extension = extension_of(path);
+  return extension == ".mcap" || extension == ".db3" || std::filesystem::is_directory(path, none);
+}
+
 LogFile read_log(const std::string& path, const LogQuestion& question) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    return read_log(file_of_bag(path), question);
+  }
   const std::string extension = extension_of(path);
   if (extension == ".mat") {
     return from_matlab(path);
@@ -53,7 +80,10 @@ LogFile read_log(const std::string& path, const LogQuestion& question) {
     return read_hdf5_log(path, question.wanted);
   }
   if (extension == ".db3") {
-    return read_rosbag_log(path, question.wanted);
+    return read_rosbag_log(path, question);
+  }
+  if (extension == ".mcap") {
+    return read_mcap_log(path, question);
   }
   if (extension == ".jsonl" || extension == ".ndjson" || extension == ".json") {
     return read_json_log(path);
@@ -62,7 +92,7 @@ LogFile read_log(const std::string& path, const LogQuestion& question) {
                        extension == ".log" || extension == ".dat" || extension.empty();
   if (!is_text && question.names.empty()) {
     throw InputError({path, 0, ""}, "extension " + extension,
-                     ".csv, .txt, .tsv, .dat, .log, .jsonl, .json, .h5, .hdf5, .mat or .db3");
+                     ".csv, .txt, .tsv, .dat, .log, .jsonl, .json, .h5, .hdf5, .mat, .db3 or .mcap");
   }
   return read_text_log(path, question.names);
 }

@@ -10,30 +10,26 @@
 namespace plumbline {
 namespace {
 
-/// pkg/msg/Name and pkg/Name are one type.
-std::string short_type(std::string type) {
-  const std::size_t middle = type.find("/msg/");
-  return middle == std::string::npos ? type : type.erase(middle, 4);
-}
-
 class Decoder {
  public:
-  Decoder(const std::string& file, const std::string& type, const RosDefinitions& known,
-          std::string_view bytes)
-      : file_(file), type_(type), known_(known), bytes_(bytes) {
+  Decoder(const RosSource& source, const RosDefinitions& known, std::string_view bytes, RosEncoding encoding)
+      : source_(source), known_(known), bytes_(bytes), is_cdr_(encoding == RosEncoding::cdr) {
+    if (!is_cdr_) {
+      return;
+    }
     if (bytes.size() < 4 || bytes[0] != 0 || (bytes[1] != 0 && bytes[1] != 1)) {
-      throw InputError({file_, 0, type_}, "a message of another encoding", "plain CDR");
+      refuse("a message of another encoding", "plain CDR");
     }
     big_endian_ = bytes[1] == 0;
     bytes_.remove_prefix(4);
   }
 
   void message(const std::string& type, const std::string& path) {
-    const auto found = known_.find(short_type(type));
-    if (found == known_.end()) {
-      throw InputError({file_, 0, type_}, "no definition of " + type, "one in the bag");
+    constexpr int kDeepest = 32;  // a type that holds itself has no end
+    if (++depth_ > kDeepest) {
+      refuse("types that hold each other without end", "a definition that can be read");
     }
-    for (const RosField& field : found->second) {
+    for (const RosField& field : fields_of(type)) {
       const std::string name = path.empty() ? field.name : path + "." + field.name;
       if (!field.is_array) {
         value(field.type, name);
@@ -47,18 +43,33 @@ class Decoder {
         value(field.type, name + "." + std::to_string(i));
       }
     }
+    --depth_;
   }
 
   RosValues result;
 
  private:
-  [[noreturn]] void cut_off() const {
-    throw InputError({file_, 0, type_}, "a message that ends early", "all its fields");
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw InputError({source_.file, 0, source_.topic}, found, expected);
+  }
+
+  [[noreturn]] void cut_off() const { refuse("a message that ends early", "all its fields"); }
+
+  const std::vector<RosField>& fields_of(const std::string& type) const {
+    auto found = known_.find(short_ros_type(type));
+    const std::size_t slash = type.rfind('/');
+    if (found == known_.end() && slash != std::string::npos && type.substr(slash) == "/Header") {
+      found = known_.find("std_msgs/Header");  // ROS 1 writes it without its package
+    }
+    if (found == known_.end()) {
+      refuse("no definition of " + type, "one in the bag");
+    }
+    return found->second;
   }
 
   template <typename T>
   T number() {
-    at_ = (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T);
+    at_ = is_cdr_ ? (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T) : at_;
     if (at_ + sizeof(T) > bytes_.size()) {
       cut_off();
     }
@@ -78,16 +89,27 @@ class Decoder {
     result.numbers.emplace_back(path, static_cast<double>(number<T>()));
   }
 
+  template <typename Seconds>
+  void time(const std::string& path) {
+    const double seconds = number<Seconds>();
+    result.numbers.emplace_back(path, seconds + 1e-9 * number<std::uint32_t>());
+  }
+
   void text(const std::string& path) {
     const std::size_t length = number<std::uint32_t>();
     if (length > bytes_.size() - at_) {
       cut_off();
     }
-    result.texts[path] = std::string(bytes_.substr(at_, length == 0 ? 0 : length - 1));
+    const std::size_t kept = is_cdr_ && length > 0 ? length - 1 : length;  // CDR counts the closing zero
+    result.texts[path] = std::string(bytes_.substr(at_, kept));
     at_ += length;
   }
 
   void value(const std::string& type, const std::string& path) {
+    constexpr long kMost = 100000;
+    if (++values_ > kMost) {
+      refuse("more than 100000 values in a message", "a topic of measurements, not of pictures");
+    }
     using Store = void (Decoder::*)(const std::string&);
     static const std::map<std::string, Store> kPrimitives = {
         {"float64", &Decoder::store<double>},       {"float32", &Decoder::store<float>},
@@ -96,32 +118,40 @@ class Decoder {
         {"bool", &Decoder::store<std::uint8_t>},    {"int16", &Decoder::store<std::int16_t>},
         {"uint16", &Decoder::store<std::uint16_t>}, {"int32", &Decoder::store<std::int32_t>},
         {"uint32", &Decoder::store<std::uint32_t>}, {"int64", &Decoder::store<std::int64_t>},
-        {"uint64", &Decoder::store<std::uint64_t>}, {"string", &Decoder::text}};
+        {"uint64", &Decoder::store<std::uint64_t>}, {"string", &Decoder::text},
+        {"time", &Decoder::time<std::uint32_t>},    {"duration", &Decoder::time<std::int32_t>}};
     const auto primitive = kPrimitives.find(type.substr(0, type.find("<=")));
     if (primitive != kPrimitives.end()) {
       (this->*primitive->second)(path);
-    } else if (short_type(type) == "builtin_interfaces/Time") {
-      const double seconds = number<std::int32_t>();
-      result.numbers.emplace_back(path, seconds + 1e-9 * number<std::uint32_t>());
+    } else if (short_ros_type(type) == "builtin_interfaces/Time" ||
+               short_ros_type(type) == "builtin_interfaces/Duration") {
+      time<std::int32_t>(path);
     } else {
       message(type, path);
     }
   }
 
-  const std::string& file_;
-  const std::string& type_;
+  const RosSource& source_;
   const RosDefinitions& known_;
   std::string_view bytes_;
+  bool is_cdr_;
   std::size_t at_ = 0;
   bool big_endian_ = false;
+  int depth_ = 0;
+  long values_ = 0;
 };
 
 }  // namespace
 
+std::string short_ros_type(std::string type) {
+  const std::size_t middle = type.find("/msg/");
+  return middle == std::string::npos ? type : type.erase(middle, 4);
+}
+
 RosDefinitions parse_ros_definitions(const std::string& file, const std::string& type,
                                      const std::string& text) {
   RosDefinitions all;
-  std::string current = short_type(type);
+  std::string current = short_ros_type(type);
   all[current];
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -136,7 +166,7 @@ RosDefinitions parse_ros_definitions(const std::string& file, const std::string&
     std::string rest;
     words >> rest;
     if (field.type == "MSG:") {
-      current = short_type(field.name);
+      current = short_ros_type(field.name);
       all[current];
       continue;
     }
@@ -234,9 +264,10 @@ float64 data
   return kCommon;
 }
 
-RosValues decode_ros_message(const std::string& file, const std::string& type,
-                             const RosDefinitions& definitions, std::string_view bytes) {
-  Decoder decoder(file, type, definitions, bytes);
+RosValues decode_ros_message(const RosSource& source, const std::string& type,
+                             const RosDefinitions& definitions, std::string_view bytes,
+                             RosEncoding encoding) {
+  Decoder decoder(source, definitions, bytes, encoding);
   decoder.message(type, "");
   return std::move(decoder.result);
 }

@@ -1,4 +1,4 @@
-// ROS 2 messages: definitions as text, and values out of their serialised form.
+// Messages of ROS: definitions as text, and values out of their serialised form.
 #pragma once
 
 #include <map>
@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace plumbline {
+
+/// pkg/msg/Name and pkg/Name are one type: the second.
+std::string short_ros_type(std::string type);
 
 struct RosField {
   std::string type;
@@ -18,8 +21,8 @@ struct RosField {
 /// Fields by message type, `package/Name`.
 using RosDefinitions = std::map<std::string, std::vector<RosField>>;
 
-/// ros2msg text: the fields of `type`, and behind lines of = the types it uses (`MSG: package/Name`).
-/// Throws InputError (file, type) for a line that is no field.
+/// ros2msg or ros1msg text: the fields of `type`, and behind lines of = the types it uses (`MSG:
+/// package/Name`). Throws InputError (file, type) for a line that is no field.
 RosDefinitions parse_ros_definitions(const std::string& file, const std::string& type,
                                      const std::string& text);
 
@@ -31,9 +34,19 @@ struct RosValues {
   std::map<std::string, std::string> texts;
 };
 
-/// Values of a message in CDR (OMG DDSI-RTPS 10.2: four bytes that say the order of bytes, then each value
-/// aligned to its size). Times become seconds. Throws InputError for a message that ends early.
-RosValues decode_ros_message(const std::string& file, const std::string& type,
-                             const RosDefinitions& definitions, std::string_view bytes);
+/// cdr: OMG DDSI-RTPS 10.2, four bytes that say the order of bytes, then each value aligned to its size.
+/// ros1: values one behind the other, low byte first.
+enum class RosEncoding { cdr, ros1 };
+
+/// Where a message comes from, for what is said of it.
+struct RosSource {
+  std::string file, topic;
+};
+
+/// Values of a message. Times and durations become seconds. Throws InputError (file, topic) for a message
+/// that ends early, whose type has no definition, or that has more than 100000 values (a picture).
+RosValues decode_ros_message(const RosSource& source, const std::string& type,
+                             const RosDefinitions& definitions, std::string_view bytes,
+                             RosEncoding encoding = RosEncoding::cdr);
 
 }  // namespace plumbline

@@ -15,6 +15,7 @@
 #include "validation/api/new_model_text.h"
 #include "validation/identify/inverse_model/inverse_model.h"
 #include "validation/identify/trial/new_folder.h"
+#include "validation/identify/trial/trial_from_log.h"
 
 namespace plumbline::api {
 namespace {
@@ -79,8 +80,8 @@ void refuse_existing(const std::string& file) {
   }
 }
 
-LogLook look_at_log(const std::string& log) {
-  LogLook look = validation::look_at(read_log(log));
+LogLook look_at_log(const std::string& log, const std::vector<std::string>& topics) {
+  LogLook look = validation::look_at_log(log, topics);
   if (look.time < 0) {
     throw InputError({log, 0, ""}, "no column that rises like a time", "a column such as t [s]");
   }
@@ -255,7 +256,7 @@ NewModel new_model(const NewModelWish& wish) {
   const model::Skeleton skeleton = model::read_skeleton(wish.skeleton);
   std::optional<LogLook> look;
   if (!wish.log.empty()) {
-    look = look_at_log(wish.log);
+    look = look_at_log(wish.log, wish.topics);
   }
   Plan plan{&skeleton, relative_to(folder_of(wish.file), wish.skeleton), "", look ? &*look : nullptr,
             plan_joints(skeleton)};

@@ -8,10 +8,11 @@
 namespace plumbline::api {
 
 struct NewModelWish {
-  std::string skeleton;      ///< .urdf, .sdf or .xml (MJCF)
-  std::string log;           ///< empty: none
-  std::string file;          ///< model.yaml; must not exist
-  std::string command_unit;  ///< "A" or "N m"; empty: that of the log's commands, else N m
+  std::string skeleton;             ///< .urdf, .sdf or .xml (MJCF)
+  std::string log;                  ///< empty: none
+  std::vector<std::string> topics;  ///< of a bag: see LogQuestion
+  std::string file;                 ///< model.yaml; must not exist
+  std::string command_unit;         ///< "A" or "N m"; empty: that of the log's commands, else N m
 };
 
 /// One joint of the new model, and its columns in the log (empty: none matched).

@@ -83,6 +83,11 @@ void add_new_model(CLI::App& app, Outcome& /*outcome*/) {
       ->add_option("--from", options->wish.log,
                    "a log: columns called after the joints become a train and a held-out trial")
       ->type_name("LOG");
+  command
+      ->add_option("--topic", options->wish.topics,
+                   "with --from a bag: the topic whose messages are the rows, and any further ones")
+      ->needs("--from")
+      ->type_name("NAME");
   command->add_option("-o,--out", options->wish.file, "the model file to write")
       ->required()
       ->type_name("FILE");

@@ -18,6 +18,7 @@ using validation::LogLook;
 
 struct Options {
   std::string folder, log, model, json;
+  std::vector<std::string> topics;
 };
 
 nlohmann::json to_json(const LogLook& look, const std::string& folder) {
@@ -84,7 +85,8 @@ void run(const Options& options) {
   if (!options.model.empty()) {
     model = model::read_model(options.model, model::known_effects());
   }
-  const LogLook look = validation::new_trial_from_log(options.folder, options.log, model ? &*model : nullptr);
+  const LogLook look =
+      validation::new_trial_from_log(options.folder, options.log, model ? &*model : nullptr, options.topics);
   write_json(to_json(look, options.folder), options.json);
   print(look, options.folder);
 }
@@ -96,20 +98,28 @@ void add_new_trial(CLI::App& app, Outcome& /*outcome*/) {
   CLI::App* command = app.add_subcommand(
       "new-trial", "A folder to fill in: trial.yaml explained, or made from what a log looks like");
   command->add_option("folder", options->folder, "the new folder")->required()->type_name("DIR");
-  CLI::Option* log =
-      command->add_option("--from", options->log,
-                          "a log (CSV in any dialect, JSON lines, HDF5, MATLAB): its columns are "
-                          "listed and guessed at");
+  CLI::Option* log = command->add_option(
+      "--from", options->log,
+      "a log (CSV in any dialect, JSON lines, HDF5, MATLAB, a ROS bag in .mcap or .db3): its columns are "
+      "listed and guessed at");
   log->type_name("LOG");
   command
       ->add_option("--model", options->model,
                    "with --from: the robot's model, whose sensors and motors get the columns that fit")
       ->needs(log)
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--topic", options->topics,
+          "with --from a bag: the topic whose messages are the rows, and any further ones; left out: "
+          "the only one that is likely, and what there is when there are several")
+      ->needs(log)
+      ->type_name("NAME");
   add_json_option(*command, options->json);
   command->footer(
       "Example:\n  plumbline new-trial trials/steps_on_the_knee\n"
-      "  plumbline new-trial trials/swing --from logs/swing.csv --model model.yaml");
+      "  plumbline new-trial trials/swing --from logs/swing.csv --model model.yaml\n"
+      "  plumbline new-trial trials/swing --from bag.mcap --topic /joint_states /joint_command");
   command->callback([options] { run(*options); });
 }
 

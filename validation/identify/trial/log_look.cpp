@@ -255,7 +255,8 @@ void look_at_rates(const LogFile& log, LogLook& look) {
       look.time_scale * log.table.columns[static_cast<std::size_t>(look.time)].values;
   for (std::size_t r = 0; r < look.columns.size(); ++r) {
     ColumnLook& rate = look.columns[r];
-    if (rate.role != ColumnRole::rate && rate.role != ColumnRole::other) {
+    const bool is_clock = !rate.unit.empty() && units_agree(rate.unit, "s");  // another one beside the time
+    if (is_clock || (rate.role != ColumnRole::rate && rate.role != ColumnRole::other)) {
       continue;
     }
     Derivative best;
@@ -365,6 +366,7 @@ LogLook look_at(const LogFile& log) {
   look.file = log.table.file;
   look.rows = static_cast<long>(log.table.rows());
   look.remarks = log.remarks;
+  look.topics = log.topics;
   for (const Column& column : log.table.columns) {
     ColumnLook one;
     one.name = column.name;

@@ -38,6 +38,7 @@ struct LogLook {
   long gaps = 0;                                                      ///< steps of more than five median ones
   long not_rising = 0;  ///< rows whose time is not above that of the row before
   std::vector<std::string> remarks;
+  std::vector<std::string> topics;  ///< of a bag
 
   const ColumnLook* find(ColumnRole role) const;  ///< the first of this role, or nullptr
 };

@@ -239,28 +239,28 @@ void check_events(const Trial& trial) {
   }
 }
 
-/// Columns that a file with many of them is asked for.
-std::vector<std::string> wanted_columns(const TrialFile& file) {
-  std::vector<std::string> names;
-  const auto add = [&](const std::optional<ColumnUse>& use) {
-    if (use && !use->name.empty()) {
-      names.push_back(use->name);
+/// Columns that a file with many of them is asked for, and which of them hold until the next value.
+LogQuestion question_of(TrialFile file, const model::Model& model) {
+  LogQuestion question;
+  question.names = file.columns;
+  for_each_column(file, [&](const ColumnUse& use) {
+    if (!use.name.empty()) {
+      question.wanted.push_back(use.name);
+      question.held.insert(use.name);
     }
-  };
-  add(file.time);
+  });
   for (const MeasuredUse& use : file.measured) {
-    add(use.column);
+    if (model.find_switch(use.sensor) == nullptr) {
+      question.held.erase(use.column.name);
+    }
   }
-  for (const CommandUse& use : file.commands) {
-    add(use.column);
+  return question;
+}
+
+void refuse_topic_of_no_bag(const TrialFile& file, const std::string& data) {
+  if (file.topic_place && !is_bag(data)) {
+    throw InputError(*file.topic_place, "a topic of " + data, "`topic` for a bag (.mcap, .db3) only");
   }
-  for (const ControllerUse& use : file.controllers) {
-    add(use.reference);
-    add(use.disturbance);
-    add(use.velocity);
-    add(use.reference_velocity);
-  }
-  return names;
 }
 
 }  // namespace
@@ -280,7 +280,11 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
   trial.data_file = data_path(file, options.data_folder);
   trial.start = file.start;
   trial.clock_shift_uncertainty = file.clock_shift_uncertainty;
-  const LogFile log = read_log(trial.data_file, {file.columns, wanted_columns(file)});
+  refuse_topic_of_no_bag(file, trial.data_file);
+  const LogFile log = read_log(trial.data_file, question_of(file, model));
+  if (is_bag(trial.data_file)) {
+    trial.data_file = log.table.file;  // within a bag's folder
+  }
   TrialReader(file, model, log, trial).read();
   trial.contact_events = contact_events(trial);
   check_events(trial);

@@ -39,11 +39,15 @@ ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, co
   if (!node.is_map()) {
     node.refuse("a map {column: ..., unit: " + expected_unit + "}");
   }
-  std::vector<std::string> keys{"column", "unit", "scale", "offset"};
+  std::vector<std::string> keys{"topic", "column", "unit", "scale", "offset"};
   keys.insert(keys.end(), further_keys.begin(), further_keys.end());
   node.allow_keys(keys);
   ColumnUse use;
   use.name = node.at("column").text();
+  if (const auto topic = node.find("topic")) {
+    use.name = topic->text() + "." + use.name;
+    use.has_topic = true;
+  }
   use.place = node.at("column").place();
   use.expected_unit = expected_unit;
   use.owner = owner;

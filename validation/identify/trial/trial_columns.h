@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
 /// Refuses a name that is no sensor of the model.
 void check_sensor(const model::YamlNode& node, const std::string& name, const model::Model& model);
 
-/// {column, unit, scale, offset}, and keys that the caller reads.
+/// {topic, column, unit, scale, offset}, and keys that the caller reads.
 ColumnUse read_column(const model::YamlNode& node, const std::string& expected_unit, const std::string& owner,
                       const std::vector<std::string>& further_keys = {});
 

@@ -256,6 +256,26 @@ std::vector<double> read_events(const YamlNode& node) {
   return events;
 }
 
+/// Columns that name no topic are the file's, unless they are written whole: /joint_states.position.elbow.
+void read_topic(const YamlNode& root, TrialFile& file) {
+  if (const auto topic = root.find("topic")) {
+    file.topic = topic->text();
+    file.topic_place = topic->place();
+    if (file.topic.empty()) {
+      topic->refuse("no name", "a topic of the bag, such as /joint_states");
+    }
+  }
+  for_each_column(file, [&](ColumnUse& use) {
+    if (use.has_topic && !file.topic_place) {
+      file.topic_place = use.place;
+    }
+    const bool is_whole = use.has_topic || use.name.empty() || use.name.front() == '/';
+    if (!is_whole && !file.topic.empty()) {
+      use.name = file.topic + "." + use.name;
+    }
+  });
+}
+
 void refuse_second_use(const ColumnUse& use, std::set<std::string>& taken) {
   if (!taken.insert(use.name).second) {
     throw InputError(use.place, "column " + quote(use.name) + " a second time", "each column used once");
@@ -283,6 +303,27 @@ void check_columns_differ(const TrialFile& file) {
 }
 
 }  // namespace
+
+void for_each_column(TrialFile& file, const std::function<void(ColumnUse&)>& visit) {
+  const auto optional = [&](std::optional<ColumnUse>& use) {
+    if (use) {
+      visit(*use);
+    }
+  };
+  visit(file.time);
+  for (MeasuredUse& use : file.measured) {
+    visit(use.column);
+  }
+  for (CommandUse& use : file.commands) {
+    visit(use.column);
+  }
+  for (ControllerUse& use : file.controllers) {
+    visit(use.reference);
+    optional(use.disturbance);
+    optional(use.velocity);
+    optional(use.reference_velocity);
+  }
+}
 
 Role read_role(const YamlNode& node) {
   const std::string text = node.text();
@@ -335,27 +376,17 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   file.folder = fs::path(file.path).parent_path().string();
   const YamlNode root = YamlNode::load(file.path);
   check_format(root, "trial/1");
-  root.allow_keys({"plumbline",
-                   "title",
-                   "model",
-                   "role",
-                   "data",
-                   "data_folder_env",
-                   "columns",
-                   "section",
-                   "leave_out",
-                   "missing",
-                   "rows",
-                   "time",
-                   "clock_shift_uncertainty",
-                   "commands",
-                   "measured",
-                   "locked",
-                   "terrain",
-                   "configuration",
-                   "start",
-                   "controllers",
-                   "events"});
+  root.allow_keys({"plumbline",     "title",
+                   "model",         "role",
+                   "data",          "data_folder_env",
+                   "columns",       "topic",
+                   "section",       "leave_out",
+                   "missing",       "rows",
+                   "time",          "clock_shift_uncertainty",
+                   "commands",      "measured",
+                   "locked",        "terrain",
+                   "configuration", "start",
+                   "controllers",   "events"});
   file.title = root.at("title").text();
   file.model_file = read_model_path(root);
   file.role = read_role(root.at("role"));
@@ -413,6 +444,7 @@ TrialFile read_trial_file(const std::string& path, const Model& model) {
   if (const auto events = root.find("events")) {
     file.events = read_events(*events);
   }
+  read_topic(root, file);
   check_columns_differ(file);
   check_controllers(file);
   return file;

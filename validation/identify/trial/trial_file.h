@@ -1,6 +1,7 @@
 // trial.yaml as it is written: what is named where, before any data are read.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@ struct ColumnUse {
   std::string expected_unit;  ///< of the sensor or motor it belongs to
   std::string owner;          ///< "sensor q", for messages
   Place_in_file place;
-  double scale = 1.0;   ///< of what stands in the column: -1 turns it over, 0.088 makes degrees of counts
-  double offset = 0.0;  ///< added behind that, SI
-  double turn = 0.0;    ///< the column wraps around after this, SI; 0: it does not
+  double scale = 1.0;      ///< of what stands in the column: -1 turns it over, 0.088 makes degrees of counts
+  double offset = 0.0;     ///< added behind that, SI
+  double turn = 0.0;       ///< the column wraps around after this, SI; 0: it does not
+  bool has_topic = false;  ///< it names its own; `name` then begins with it
 };
 
 /// A stretch of the recording, s.
@@ -70,9 +72,11 @@ struct TrialFile {
   std::string data;             ///< as written
   std::string data_folder_env;  ///< empty: none
   Place_in_file data_folder_env_place;
-  std::vector<std::string> columns;  ///< of a data file without header; empty: it has one
-  ColumnUse time;                    ///< without a name where the rate is given
-  double rate = 0.0;                 ///< Hz, the first row is at 0 s; 0: a column holds the time
+  std::vector<std::string> columns;          ///< of a data file without header; empty: it has one
+  std::string topic;                         ///< of a bag, for columns that name none; empty: they name it
+  std::optional<Place_in_file> topic_place;  ///< of the first `topic`, here or at a column; none: no bag
+  ColumnUse time;                            ///< without a name where the rate is given
+  double rate = 0.0;                         ///< Hz, the first row is at 0 s; 0: a column holds the time
   LogSampling sampling;
   bool fill_missing = false;        ///< cells without a number are bridged like gaps; else they are refused
   bool leave_out_bad_rows = false;  ///< rows whose time cannot be; else they are refused
@@ -88,6 +92,9 @@ struct TrialFile {
   std::vector<Start> start;
   std::vector<double> events;
 };
+
+/// Every column that the file asks for, the time first.
+void for_each_column(TrialFile& file, const std::function<void(ColumnUse&)>& visit);
 
 /// train, held-out or test.
 Role read_role(const model::YamlNode& node);

@@ -102,6 +102,10 @@ class Writer {
          << "          # the robot's model file, relative to this file\n"
          << "role: train               # or held-out: another kind of motion, never fitted\n\n"
          << "data: " << yaml_text(data) << "\n";
+    if (!look_.topics.empty()) {
+      out_ << "topic: " << yaml_text(look_.topics.front())
+           << "          # of the bag: whose messages are the rows; a column may name another\n";
+    }
     write_table();
     write_time();
     choose();
@@ -133,13 +137,34 @@ class Writer {
     out_ << "\n";
   }
 
+  /// Of a bag without the topic that the trial names, of another topic without its slash.
+  std::string own_name(const std::string& name) const {
+    if (look_.topics.empty()) {
+      return name;
+    }
+    const std::string& first = look_.topics.front();
+    return name.rfind(first + ".", 0) == 0 ? name.substr(first.size() + 1)
+                                           : name.substr(name.find_first_not_of('/'));
+  }
+
+  /// `column: NAME`, of a bag without the topic that the trial names, or with one of its own.
+  std::string column_key(const std::string& name) const {
+    for (const std::string& topic : look_.topics) {
+      if (name.rfind(topic + ".", 0) == 0) {
+        const std::string own = topic == look_.topics.front() ? "" : "topic: " + yaml_text(topic) + ", ";
+        return own + "column: " + yaml_text(name.substr(topic.size() + 1));
+      }
+    }
+    return "column: " + yaml_text(name);
+  }
+
   void write_time() {
     if (look_.time < 0) {
       out_ << "time: {rate: {value: 1000, unit: Hz}}  # no column rises like a time: state the rate\n\n";
       return;
     }
     const ColumnLook& time = look_.columns[static_cast<std::size_t>(look_.time)];
-    out_ << "time: {column: " << yaml_text(time.name) << ", unit: " << time.unit << "}"
+    out_ << "time: {" << column_key(time.name) << ", unit: " << time.unit << "}"
          << (time.unit_is_guess ? "  # unit guessed" : "") << "\n"
          << "# " << number(look_.duration) << " s; steps of " << number(1e3 * look_.shortest_step) << " to "
          << number(1e3 * look_.longest_step) << " ms, the median " << number(1e3 * look_.median_step)
@@ -192,7 +217,7 @@ class Writer {
         const bool measured = column.role == ColumnRole::position || column.role == ColumnRole::contact ||
                               column.role == ColumnRole::force;
         if ((measured || column.role == ColumnRole::command) && column.text.empty() && column.values > 1) {
-          chosen_.push_back({legal_name(column.name), column.role, static_cast<int>(i)});
+          chosen_.push_back({legal_name(own_name(column.name)), column.role, static_cast<int>(i)});
         }
       }
       return;
@@ -257,7 +282,7 @@ class Writer {
                                                : model::reading_unit(*model_, choice.name);
       unit = units_agree(unit, known) ? unit : known;
     }
-    out_ << "  " << choice.name << ": {column: " << yaml_text(column.name) << ", unit: "
+    out_ << "  " << choice.name << ": {" << column_key(column.name) << ", unit: "
          << (unit == "1"    ? "\"1\""
              : unit.empty() ? "\"?\""
                             : unit)
@@ -345,8 +370,18 @@ std::string trial_text(const LogLook& look, const model::Model* model, const std
   return Writer(look, model).text(data, model_file);
 }
 
-LogLook new_trial_from_log(const std::string& folder, const std::string& log, const model::Model* model) {
-  const LogLook look = look_at(read_log(log));
+LogLook look_at_log(const std::string& log, const std::vector<std::string>& topics) {
+  if (!topics.empty() && !is_bag(log)) {
+    throw InputError({log, 0, ""}, "a topic of a file that is no bag", "a bag (.mcap, .db3)");
+  }
+  LogQuestion question;
+  question.topics = topics;
+  return look_at(read_log(log, question));
+}
+
+LogLook new_trial_from_log(const std::string& folder, const std::string& log, const model::Model* model,
+                           const std::vector<std::string>& topics) {
+  const LogLook look = look_at_log(log, topics);
   const fs::path target = fs::absolute(folder).lexically_normal();
   const auto from_there = [&](const std::string& path) {
     return fs::proximate(fs::absolute(path).lexically_normal(), target).string();
