@@ -3,9 +3,9 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "validation/fit/free_parameters.h"
-#include "validation/predict/windows.h"
-#include "validation/twin/twin.h"
+#include "validation/identify/fit/free_parameters.h"
+#include "validation/identify/predict/windows.h"
+#include "validation/identify/twin/twin.h"
 
 namespace plumbline::validation {
 namespace {
