@@ -32,6 +32,28 @@ TEST(Conclude, WhereNothingWasAddedTheLastErrorCounts) {
   EXPECT_EQ(diagnosis.unexplained_share, 0.0);
 }
 
+// What standard identification does without is no name any more, and the model is that without it.
+TEST(Conclude, AWithdrawnNameIsToldAndLeavesTheModel) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.02"}).thinned(2);
+  Diagnosis diagnosis;
+  diagnosis.ladder.push_back({"as given", as_given(bench(), data)});
+  diagnosis.accepted.emplace_back();
+  diagnosis.accepted.back().effect = "load_friction";
+  diagnosis.accepted.back().at = "mLA";
+  Stage with = diagnosis.ladder.front().stage;
+  with.model.effects.push_back(parse_effect("load_friction@mLA", bench(), effects::Catalogue::all()));
+  diagnosis.ladder.push_back({"+ load_friction@mLA", with});
+  diagnosis.final_stage = with;
+
+  withdraw_names(data, {}, diagnosis);
+  EXPECT_TRUE(diagnosis.accepted.empty());
+  ASSERT_EQ(diagnosis.withdrawn.size(), 1U);
+  EXPECT_EQ(diagnosis.withdrawn.front().label(), "load_friction@mLA");
+  EXPECT_EQ(diagnosis.final_stage.model.effects.size(), bench().effects.size());
+  EXPECT_EQ(diagnosis.ladder.size(), 1U);
+  EXPECT_EQ(diagnosis.verdict, Verdict::unexplained);
+}
+
 Finding finding_at(const std::string& effect, const std::string& at) {
   Finding finding;
   finding.effect = effect;

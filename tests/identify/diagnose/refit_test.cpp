@@ -3,6 +3,7 @@
 
 #include "tests/identify/diagnose/bench.h"
 #include "validation/identify/diagnose/look_ahead.h"
+#include "validation/identify/diagnose/race.h"
 
 namespace plumbline::validation {
 namespace {
@@ -54,6 +55,20 @@ TEST(Refit, OfTheOthersIsNeededWhereTheBestIsNearTheFloorOnly) {
   ASSERT_EQ(label(refits[1]), "hard_stop@leg_shape");
   EXPECT_GT(refits[1].estimate.predicted.scores.held_out, 1.1);
   EXPECT_LT(refits[1].estimate.predicted.scores.held_out, 1.2);
+}
+
+// The order of the linear predictions is turned about: the race is run, not read off.
+TEST(Refit, ARaceIsWonByTheLawThatIsHidden) {
+  const Data data = pendulum_twins({"coulomb@drive:level=0.0008"}).thinned(12);
+  const Tried tried = screen_candidates(as_given(pendulum_drive(), data),
+                                        some_laws({"coulomb", "quadratic", "torque_bias"}), {}, data, silent);
+  std::vector<const Hypothesis*> entrants;
+  for (const char* label : {"torque_bias@drive", "quadratic@drive", "coulomb@drive"}) {
+    entrants.push_back(&first_of(label, tried.hypotheses, tried.candidates));
+  }
+  const std::vector<const Hypothesis*> winners = race(tried.stage, tried.candidates, entrants, data, silent);
+  ASSERT_EQ(winners.size(), 3U);
+  EXPECT_EQ(winners.front(), entrants.back());
 }
 
 }  // namespace

@@ -50,5 +50,27 @@ TEST(StandardWindows, ReportWhatCompareFinds) {
   EXPECT_NEAR(fit->scores.held_out, again.held_out, 0.01 * again.held_out);
 }
 
+// The load is a mass, which the drives alone cannot be; and the answer rests on masses, not on friction.
+TEST(StandardWindows, RestOnTheKindThatIsWrong) {
+  Truth truth;
+  truth.lower_mass = 0.8;
+  const Data data = pendulums::data(truth);
+  const model::Model stated = pendulums::stated();
+  const std::optional<WindowsFit> all =
+      standard_by_windows(stated, Freed::all, nullptr, data, 8, pendulums::silent);
+  const std::optional<WindowsFit> drives =
+      standard_by_windows(stated, Freed::drives, nullptr, data, 8, pendulums::silent);
+  ASSERT_TRUE(all && drives);
+  EXPECT_EQ(drives->values, 10);  // two drives: inertia, gain, offset, two frictions
+  EXPECT_GT(drives->scores.held_out, 2.0 * all->scores.held_out);
+  const std::vector<KindShare> shares = kind_shares(*all, data.thinned(4));
+  ASSERT_EQ(shares.size(), 4U);
+  EXPECT_EQ(shares.front().kind, "masses and centres of mass");
+  EXPECT_GT(shares.front().without, 5.0 * all->scores.held_out);
+  for (const KindShare& one : shares) {
+    EXPECT_TRUE(one.kind != "friction" || one.without < shares.front().without / 3.0) << one.without;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::validation
