@@ -29,6 +29,9 @@ KINDS = {
     "gravity_tilt": "gravity_tilt", "encoder_offset": "sensor_offset", "encoder_scale": "sensor_gain",
     "switch_lateness": "switch_delay", "ground_stiffness_error": "ground_stiffness", "ground_damping_error": "ground_damping",
     "ground_friction_error": "ground_friction", "ground_height_error": "ground_height",
+    "gear_efficiency": "load_friction", "asymmetric_spring": "nonlinear_spring", "current_loop": "actuator_lag", "winding": "actuator_lag",
+    "harmonic_drive": "elastic_drive", "torque_ripple": "torque_ripple", "torque_saturation": "torque_gain", "voltage_limit": "torque_gain",
+    "thermal_motor": "torque_gain", "battery": "torque_gain",
 }
 # (kind, parameter of the program) -> (name of the benchmark, power of the gear's ratio at a motor, sign)
 VALUES = {
