@@ -65,7 +65,7 @@ bool Diagnoser::begin_on_segments(const model::Model& model, Diagnosis& diagnosi
 bool Diagnoser::further_on(bool complete, bool with_numbers, Diagnosis& diagnosis) {
   progress_(std::isinf(length_) ? "whole windows" : fmt::format("windows of {:.2g} s", length_), 0.0);
   const Stage& before = diagnosis.final_stage;
-  take("the same further on", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
+  take("the same on longer windows", fitted_anew({fitted_model(before), before.parameters, {}}, data_, x0_),
        diagnosis);
   const bool at_floor = is_below(policy_.at_floor, diagnosis.final_stage.estimate, data_);
   const bool helped = !(at_floor && complete) && with_numbers && open_own_numbers(diagnosis);
