@@ -113,8 +113,7 @@ class Standard {
         windows_(policy.windows),
         progress_(progress),
         by_torques_(torques.standard ? torques.standard
-                                     : torque_identification(loaded.model, validation::Freed::all,
-                                                             *loaded.data, progress)) {}
+                                     : torque_identification(loaded.model, *loaded.data, progress)) {}
 
   /// Of everything, or of the drives with the bodies as stated: what predicts better.
   std::optional<validation::WindowsFit> of(const model::Model& model) const {
@@ -129,12 +128,8 @@ class Standard {
 
   std::optional<validation::WindowsFit> alone() const {
     std::optional<validation::WindowsFit> fit = of(loaded_.model);
-    for (const std::optional<validation::StandardFit>& one :
-         {by_torques_,
-          torque_identification(loaded_.model, validation::Freed::drives, *loaded_.data, progress_)}) {
-      if (one) {
-        take_better(validation::as_windows_fit(one->free, one->after), loaded_, fit);
-      }
+    if (by_torques_) {
+      take_better(validation::as_windows_fit(by_torques_->free, by_torques_->after), loaded_, fit);
     }
     return fit;
   }

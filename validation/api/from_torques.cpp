@@ -107,11 +107,10 @@ void take_values(const Diagnosis& further, Finding& finding) {
 
 }  // namespace
 
-std::optional<validation::StandardFit> torque_identification(const model::Model& model,
-                                                             validation::Freed freed, const Data& data,
+std::optional<validation::StandardFit> torque_identification(const model::Model& model, const Data& data,
                                                              const Progress& progress) {
   try {
-    return validation::standard_fit(model, data, {0.0, freed}, progress);
+    return validation::standard_fit(model, data, {}, progress);
   } catch (const InputError&) {
     return {};  // hidden states, feet on the ground, a floating base, or positions that no sensor shows
   }
@@ -133,7 +132,7 @@ FromTorques ask_torques(const model::Model& model, const effects::Catalogue& cat
   if (!is_for_torques(validation::compare(model, data.thinned(policy.windows)).scores, policy)) {
     return answer;
   }
-  answer.standard = torque_identification(model, validation::Freed::all, data, progress);
+  answer.standard = torque_identification(model, data, progress);
   if (answer.standard) {
     answer.stage =
         validation::torque_stage(model, catalogue, data, answer.standard->cutoff, policy, progress);

@@ -16,7 +16,6 @@ struct FromTorques {
 
 /// Standard identification by the torques; empty where they cannot be asked (TorqueProblem).
 std::optional<validation::StandardFit> torque_identification(const model::Model& model,
-                                                             validation::Freed freed,
                                                              const validation::Data& data,
                                                              const validation::Progress& progress);
 

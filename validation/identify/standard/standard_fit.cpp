@@ -23,9 +23,9 @@ namespace {
 constexpr double kMotionCutoff = 100.0;  // Hz
 
 /// The search with all torques compared below one frequency, from the values that `fit` has.
-void fit_below(double cutoff, Freed freed, const model::Model& model, const Data& data, StandardFit& fit) {
+void fit_below(double cutoff, const model::Model& model, const Data& data, StandardFit& fit) {
   const TorqueProblem problem(model, data, {kMotionCutoff, cutoff});
-  FreeModel free = free_values(model, problem.scales(), freed);
+  FreeModel free = free_values(model, problem.scales());
   for (std::size_t i = 0; i < fit.free.values.size(); ++i) {
     free.values[i].value = fit.free.values[i].value;
   }
@@ -74,7 +74,7 @@ StandardFit standard_fit(const model::Model& model, const Data& data, const Stan
       progress("regressor", static_cast<double>(i) / static_cast<double>(cutoffs.size()));
     }
     try {
-      fit_below(cutoffs[i], options.freed, model, data, last);
+      fit_below(cutoffs[i], model, data, last);
       last.after = compare(identified(last.free), some).scores;
     } catch (const InputError&) {
       if (best.torques.empty()) {

@@ -13,7 +13,6 @@ namespace plumbline::validation {
 
 struct StandardOptions {
   double force_cutoff = 0.0;  ///< Hz: low-pass of torques and regressor; 0: chosen by prediction
-  Freed freed = Freed::all;
 };
 
 /// Torque needed less delivered, over all used samples of the train trials.
