@@ -49,6 +49,8 @@ foreach(header IN LISTS headers)
   install(FILES ${header} DESTINATION include/plumbline/${folder} COMPONENT development)
 endforeach()
 
+install(DIRECTORY examples DESTINATION share/plumbline COMPONENT development)
+
 configure_package_config_file(cmake/PlumblineConfig.cmake.in PlumblineConfig.cmake INSTALL_DESTINATION ${package})
 # Before 1.0 a minor version may change anything.
 write_basic_package_version_file(PlumblineConfigVersion.cmake COMPATIBILITY SameMinorVersion)
