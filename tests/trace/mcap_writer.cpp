@@ -12,7 +12,7 @@ namespace {
 std::string little(std::uint64_t value, int size) {
   std::string bytes;
   for (int i = 0; i < size; ++i) {
-    bytes += static_cast<char>(value >> (8 * i) & 0xffU);
+    bytes += i < 8 ? static_cast<char>(value >> (8 * i) & 0xffU) : '\0';
   }
   return bytes;
 }
