@@ -195,8 +195,10 @@ void print_torques(const api::Answer& answer) {
     for (const validation::KindShare& one : answer.standard->rests_on) {
       kinds += fmt::format("{}{} {:.4g}", kinds.empty() ? "" : ", ", one.kind, one.without);
     }
-    fmt::print("With one kind of value as stated again, on some of the windows: {} (floors held out).\n",
-               kinds);
+    fmt::print(
+        "With one kind of value as stated and the others fitted anew, on some of the windows: {} (floors "
+        "held out).\n",
+        kinds);
   }
   if (answer.best) {
     const validation::WindowsFit& best = answer.best->fit;

@@ -144,7 +144,33 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed f
   }
 }
 
+namespace {
+
+/// The fit with these laws' values as stated and the others searched anew. Empty where it has none of them.
+std::optional<Stage> without_kind(const WindowsFit& fit, const std::vector<std::string>& laws) {
+  Stage stage;
+  stage.model = fit.stage.model;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < fit.stage.parameters.size(); ++p) {
+    const FreeParameter& one = fit.stage.parameters[p];
+    const model::EffectUse& use = fit.stage.model.effects[static_cast<std::size_t>(one.id.effect)];
+    if (std::find(laws.begin(), laws.end(), use.law->declaration().name) == laws.end()) {
+      stage.parameters.push_back(one);
+      values.push_back(fit.stage.estimate.theta[static_cast<Eigen::Index>(p)]);
+    }
+  }
+  if (stage.parameters.size() == fit.stage.parameters.size()) {
+    return {};
+  }
+  stage.estimate.theta =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return stage;
+}
+
+}  // namespace
+
 std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
+  constexpr EstimateOptions kSearch{6, 3e-3, false};
   static const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds{
       {"masses and centres of mass", {"added_mass", "com_shift"}},
       {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
@@ -152,28 +178,20 @@ std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
       {"friction", {"viscous", "coulomb"}}};
   std::vector<KindShare> shares;
   for (const auto& [kind, laws] : kKinds) {
-    model::Model model = fitted_model(fit.stage);
-    bool is_freed = false;
-    for (const FreeParameter& one : fit.stage.parameters) {
-      const auto effect = static_cast<std::size_t>(one.id.effect);
-      const model::EffectUse& use = fit.stage.model.effects[effect];
-      if (std::find(laws.begin(), laws.end(), use.law->declaration().name) != laws.end()) {
-        const auto parameter = static_cast<std::size_t>(one.id.parameter);
-        model.effects[effect].values[parameter].value = use.values[parameter].value;
-        is_freed = true;
-      }
-    }
-    if (!is_freed) {
+    const std::optional<Stage> without = without_kind(fit, laws);
+    if (!without) {
       continue;
     }
     KindShare share{kind, std::numeric_limits<double>::infinity()};
     try {
-      const Scores scores = compare(model, data).scores;
+      PredictorPool pool(fitted_model(*without), data);
+      const Scores scores =
+          gauss_newton(pool, without->parameters, without->estimate.theta, {}, kSearch).scores;
       share.without = data.has(Role::held_out) ? scores.held_out : scores.train;
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
-      share.without = std::numeric_limits<double>::infinity();
+      share.without = std::numeric_limits<double>::infinity();  // too far away to be integrated
     }
     shares.push_back(share);
   }
