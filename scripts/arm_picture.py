@@ -13,7 +13,7 @@ import plumbline as pl
 
 JOINT, TRIAL = "shoulder_lift", "validation/trials/ur10e/loaded_held-out"
 WIDTH, HEIGHT, LEFT, TOP, BOTTOM = 860, 320, 62, 44, 44
-COLOURS = {"as given": "#b3541e", "with the payload that was named, and stated values fitted": "#1f6f8b"}
+COLOURS = {"as given": "#b3541e", "with the payload that was named, and the drives identified": "#1f6f8b"}
 
 
 def residual(trial, model):
