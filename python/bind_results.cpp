@@ -114,7 +114,8 @@ py::tuple diagnose(const ModelHandle& model, const std::vector<TrialHandle>& tri
   if (answer.diagnosis.ladder.empty()) {
     return py::make_tuple(stopped, py::none(), py::none());
   }
-  const ModelHandle found = std::make_shared<api::ChangedModel>(api::diagnosed(*model, api::with_best(answer)));
+  const ModelHandle found =
+      std::make_shared<api::ChangedModel>(api::diagnosed(*model, api::with_best(answer)));
   return py::make_tuple(stopped || answer.diagnosis.interrupted, to_python(api::to_json(answer)), found);
 }
 
