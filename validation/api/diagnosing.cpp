@@ -49,6 +49,11 @@ void add_up(const effects::Values& values, const effects::Values& deviations, mo
   deviation = std::isfinite(deviation) ? std::hypot(deviation, deviations.front()) : deviations.front();
 }
 
+/// The error that counts.
+double counts(const validation::Scores& scores, const Loaded& loaded) {
+  return loaded.data->has(validation::Role::held_out) ? scores.held_out : scores.train;
+}
+
 /// What the torques name comes first; predictions go on from there. An interruption keeps what is named.
 Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effects::Catalogue& catalogue,
                     const validation::Policy& options, const validation::Progress& progress) {
@@ -59,6 +64,10 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   if (diagnosis.accepted.empty()) {
     return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   }
+  progress(fmt::format("so far {}: {:.2f} to {:.2f} floors", diagnosis.ladder.back().name,
+                       counts(diagnosis.ladder.front().scores(), loaded),
+                       counts(diagnosis.ladder.back().scores(), loaded)),
+           1.0);
   if (is_for_torques(diagnosis.ladder.back().scores(), options)) {
     return diagnosis;  // what they name comes first, and what more they ask for is all there is to say
   }
@@ -69,10 +78,6 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   join(validation::diagnose(model, catalogue, *loaded.data, further, progress), *loaded.data, options,
        diagnosis);
   return diagnosis;
-}
-
-double counts(const validation::Scores& scores, const Loaded& loaded) {
-  return loaded.data->has(validation::Role::held_out) ? scores.held_out : scores.train;
 }
 
 /// The better of two, by what counts.

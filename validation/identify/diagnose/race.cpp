@@ -21,6 +21,7 @@ std::vector<const Hypothesis*> race(const Stage& stage, const std::vector<Candid
     return square_on_some(stage, candidate_of(one), *one, data, kShort);
   };
   std::vector<Ahead> pieces;
+  pieces.reserve(entrants.size());
   for (const Hypothesis* one : entrants) {
     pieces.push_back({"trying " + candidate_of(one).label(), [&lap, one] { lap(one); }});
   }
