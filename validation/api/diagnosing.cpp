@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/found_values.h"
+#include "validation/identify/diagnose/judged.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {
@@ -49,11 +49,6 @@ void add_up(const effects::Values& values, const effects::Values& deviations, mo
   deviation = std::isfinite(deviation) ? std::hypot(deviation, deviations.front()) : deviations.front();
 }
 
-/// The error that counts.
-double counts(const validation::Scores& scores, const Loaded& loaded) {
-  return loaded.data->has(validation::Role::held_out) ? scores.held_out : scores.train;
-}
-
 /// What the torques name comes first; predictions go on from there. An interruption keeps what is named.
 Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effects::Catalogue& catalogue,
                     const validation::Policy& options, const validation::Progress& progress) {
@@ -65,8 +60,8 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
     return validation::diagnose(loaded.model, catalogue, *loaded.data, options, progress);
   }
   progress(fmt::format("so far {}: {:.2f} to {:.2f} floors", diagnosis.ladder.back().name,
-                       counts(diagnosis.ladder.front().scores(), loaded),
-                       counts(diagnosis.ladder.back().scores(), loaded)),
+                       validation::judged(diagnosis.ladder.front().scores(), *loaded.data),
+                       validation::judged(diagnosis.ladder.back().scores(), *loaded.data)),
            1.0);
   if (is_for_torques(diagnosis.ladder.back().scores(), options)) {
     return diagnosis;  // what they name comes first, and what more they ask for is all there is to say
@@ -83,7 +78,8 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
 /// The better of two, by what counts.
 void take_better(std::optional<validation::WindowsFit> other, const Loaded& loaded,
                  std::optional<validation::WindowsFit>& best) {
-  if (other && (!best || counts(other->scores, loaded) < counts(best->scores, loaded))) {
+  if (other && (!best || validation::judged(other->scores, *loaded.data) <
+                             validation::judged(best->scores, *loaded.data))) {
     best = std::move(other);
   }
 }
@@ -148,11 +144,9 @@ class Standard {
 
 /// Is a law named that standard identification does not have?
 bool is_beyond_standard(const Diagnosis& diagnosis) {
-  static const std::set<std::string> kStandard{
-      "added_mass",  "com_shift", "rotor_inertia", "torque_constant_error",
-      "torque_bias", "viscous",   "coulomb"};
-  return std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(),
-                     [](const validation::Finding& finding) { return kStandard.count(finding.effect) == 0; });
+  return std::any_of(
+      diagnosis.accepted.begin(), diagnosis.accepted.end(),
+      [](const validation::Finding& finding) { return !validation::is_freed(finding.effect); });
 }
 
 /// The best model found beside an answer that leaves more than the floor: of what was refused as a name, of
@@ -163,13 +157,13 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
                const validation::Progress& progress, Answer& answer) {
   const Diagnosis& diagnosis = answer.diagnosis;
   const validation::Scores& found = diagnosis.ladder.back().scores();
-  if (std::max(found.train, counts(found, loaded)) < policy.finished) {
+  if (std::max(found.train, validation::judged(found, *loaded.data)) < policy.finished) {
     return;
   }
-  double least = counts(found, loaded);
+  double least = validation::judged(found, *loaded.data);
   const auto take = [&](BestModel model) {
-    if (counts(model.fit.scores, loaded) < least) {
-      least = (1.0 - policy.simpler) * counts(model.fit.scores, loaded);
+    if (validation::judged(model.fit.scores, *loaded.data) < least) {
+      least = (1.0 - policy.simpler) * validation::judged(model.fit.scores, *loaded.data);
       answer.best = std::move(model);
     }
   };
@@ -190,9 +184,9 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
                                    validation::kind_shares(*fit, loaded.data->thinned(kSome))};
     take({std::move(*fit), false, true, {}});
   }
-  const bool is_behind =
-      answer.best && !answer.best->with_named &&
-      counts(answer.best->fit.scores, loaded) < (1.0 - policy.material) * counts(found, loaded);
+  const bool is_behind = answer.best && !answer.best->with_named &&
+                         validation::judged(answer.best->fit.scores, *loaded.data) <
+                             (1.0 - policy.material) * validation::judged(found, *loaded.data);
   if (is_behind && is_beyond_standard(diagnosis)) {
     validation::withdraw_names(*loaded.data, policy, answer.diagnosis);
   }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "simulator/effects/parameters.h"
+#include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/objection.h"
 #include "validation/identify/diagnose/resample.h"
 #include "validation/identify/predict/deviations.h"
@@ -92,9 +93,7 @@ std::vector<PairRow> pair_rows(const std::vector<Pair>& pairs, const Choice& cho
 
 const Refit* best_predicting(const Stage& stage, const std::vector<const Refit*>& refits, const Data& data,
                              const Policy& policy) {
-  const auto error = [&](const Estimate& estimate) {
-    return data.has(Role::held_out) ? estimate.scores.held_out : estimate.scores.train;
-  };
+  const auto error = [&](const Estimate& estimate) { return judged(estimate.scores, data); };
   const Refit* best = nullptr;
   double least = (1.0 - policy.material) * error(stage.estimate);
   for (const Refit* refit : refits) {

@@ -180,6 +180,24 @@ class Freeing {
 
 }  // namespace
 
+bool FreedKind::has(const std::string& law) const {
+  return std::find(laws.begin(), laws.end(), law) != laws.end();
+}
+
+const std::vector<FreedKind>& freed_kinds() {
+  static const std::vector<FreedKind> kKinds{
+      {"masses and centres of mass", {"added_mass", "com_shift"}},
+      {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
+      {"offsets of torque", {"torque_bias"}},
+      {"friction", {"viscous", "coulomb"}}};
+  return kKinds;
+}
+
+bool is_freed(const std::string& law) {
+  return std::any_of(freed_kinds().begin(), freed_kinds().end(),
+                     [&](const FreedKind& kind) { return kind.has(law); });
+}
+
 FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales,
                       Freed freed) {
   return Freeing(model, scales).result(freed);

@@ -37,6 +37,16 @@ struct FreeValue {
 /// Which values: all of free_values(), or those of motors and joints only, the bodies' as stated.
 enum class Freed { all, drives };
 
+/// The laws whose values are freed, by what they are of: masses, drives, offsets, friction.
+struct FreedKind {
+  std::string name;
+  std::vector<std::string> laws;
+  bool has(const std::string& law) const;
+};
+const std::vector<FreedKind>& freed_kinds();
+/// Is the law of one of them?
+bool is_freed(const std::string& law);
+
 /// A model with an effect for everything that may move.
 struct FreeModel {
   model::Model model;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "validation/identify/compare/compare.h"
+#include "validation/identify/diagnose/judged.h"
 #include "validation/identify/predict/lost_windows.h"
 #include "validation/identify/predict/reach.h"
 #include "validation/identify/predict/zero_errors.h"
@@ -117,6 +118,28 @@ WindowsFit fitted(const model::Model& model, Freed freed, const FreeModel* torqu
   return fit;
 }
 
+/// Where a search begins with a kind's values as stated and the others as fitted. Empty where it has none of
+/// the kind.
+std::optional<Stage> without_kind(const WindowsFit& fit, const FreedKind& kind) {
+  Stage stage;
+  stage.model = fit.stage.model;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < fit.stage.parameters.size(); ++p) {
+    const FreeParameter& one = fit.stage.parameters[p];
+    const model::EffectUse& use = fit.stage.model.effects[static_cast<std::size_t>(one.id.effect)];
+    if (!kind.has(use.law->declaration().name)) {
+      stage.parameters.push_back(one);
+      values.push_back(fit.stage.estimate.theta[static_cast<Eigen::Index>(p)]);
+    }
+  }
+  if (stage.parameters.size() == fit.stage.parameters.size()) {
+    return {};
+  }
+  stage.estimate.theta =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return stage;
+}
+
 }  // namespace
 
 std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed freed,
@@ -144,50 +167,20 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed f
   }
 }
 
-namespace {
-
-/// The fit with these laws' values as stated and the others searched anew. Empty where it has none of them.
-std::optional<Stage> without_kind(const WindowsFit& fit, const std::vector<std::string>& laws) {
-  Stage stage;
-  stage.model = fit.stage.model;
-  std::vector<double> values;
-  for (std::size_t p = 0; p < fit.stage.parameters.size(); ++p) {
-    const FreeParameter& one = fit.stage.parameters[p];
-    const model::EffectUse& use = fit.stage.model.effects[static_cast<std::size_t>(one.id.effect)];
-    if (std::find(laws.begin(), laws.end(), use.law->declaration().name) == laws.end()) {
-      stage.parameters.push_back(one);
-      values.push_back(fit.stage.estimate.theta[static_cast<Eigen::Index>(p)]);
-    }
-  }
-  if (stage.parameters.size() == fit.stage.parameters.size()) {
-    return {};
-  }
-  stage.estimate.theta =
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  return stage;
-}
-
-}  // namespace
-
 std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
   constexpr EstimateOptions kSearch{6, 3e-3, false};
-  static const std::vector<std::pair<std::string, std::vector<std::string>>> kKinds{
-      {"masses and centres of mass", {"added_mass", "com_shift"}},
-      {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
-      {"offsets of torque", {"torque_bias"}},
-      {"friction", {"viscous", "coulomb"}}};
   std::vector<KindShare> shares;
-  for (const auto& [kind, laws] : kKinds) {
-    const std::optional<Stage> without = without_kind(fit, laws);
+  for (const FreedKind& kind : freed_kinds()) {
+    const std::optional<Stage> without = without_kind(fit, kind);
     if (!without) {
       continue;
     }
-    KindShare share{kind, std::numeric_limits<double>::infinity()};
+    KindShare share{kind.name, std::numeric_limits<double>::infinity()};
     try {
       PredictorPool pool(fitted_model(*without), data);
       const Scores scores =
           gauss_newton(pool, without->parameters, without->estimate.theta, {}, kSearch).scores;
-      share.without = data.has(Role::held_out) ? scores.held_out : scores.train;
+      share.without = judged(scores, data);
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {
