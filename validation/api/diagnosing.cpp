@@ -149,10 +149,14 @@ bool is_beyond_standard(const Diagnosis& diagnosis) {
       [](const validation::Finding& finding) { return !validation::is_freed(finding.effect); });
 }
 
+bool is_standard_alone(const BestModel& best) {
+  return best.with_standard && !best.with_named && best.unnamed.empty();
+}
+
 /// The best model found beside an answer that leaves more than the floor: of what was refused as a name, of
 /// standard identification, and of that on top of what was named. So no answer is worse than any of them.
-/// Where two are as good the first stands. Names without
-/// which standard identification predicts better than with them are withdrawn.
+/// Where two are as good the first stands. Names without which standard identification predicts better than
+/// with them are withdrawn.
 void find_best(const Loaded& loaded, const FromTorques& torques, const validation::Policy& policy,
                const validation::Progress& progress, Answer& answer) {
   const Diagnosis& diagnosis = answer.diagnosis;
@@ -184,7 +188,7 @@ void find_best(const Loaded& loaded, const FromTorques& torques, const validatio
                                    validation::kind_shares(*fit, loaded.data->thinned(kSome))};
     take({std::move(*fit), false, true, {}});
   }
-  const bool is_behind = answer.best && !answer.best->with_named &&
+  const bool is_behind = answer.best && is_standard_alone(*answer.best) &&
                          validation::judged(answer.best->fit.scores, *loaded.data) <
                              (1.0 - policy.material) * validation::judged(found, *loaded.data);
   if (is_behind && is_beyond_standard(diagnosis)) {
@@ -243,7 +247,7 @@ std::string best_sentence(const Answer& answer) {
       "floor.",
       with, is_held_out ? "held-out" : "train", is_held_out ? given.held_out : given.train,
       is_held_out ? best.held_out : best.train);
-  if (answer.best->with_standard && answer.best->unnamed.empty() && answer.standard) {
+  if (is_standard_alone(*answer.best) && answer.standard) {
     std::string kinds;
     constexpr double kNoticeable = 1.05;  // of what is left
     for (const validation::KindShare& one : answer.standard->rests_on) {
