@@ -206,9 +206,9 @@ class ModelWriter {
     return one.joint->armature > 0.0
                ? quantity(one.joint->armature, unit, "20 %", "source",
                           file_ + ": armature of joint " + one.joint->name + "; its uncertainty is assumed")
-               : quantity(one.small_inertia, unit, "100 %", "assumed",
-                          "one hundredth of what the joint moves; behind gears it may be far more: rotor "
-                          "inertia times ratio squared");
+               : quantity(one.small_inertia, unit, "10000 %", "assumed",
+                          "one hundredth of what the joint moves, uncertain by as much as that: behind a "
+                          "gear a rotor counts with the ratio squared");
   }
 
   void write_ratios() {
@@ -255,17 +255,31 @@ class ModelWriter {
   }
 
   void write_sensors() {
-    out_ << "# A sensor for each joint. The resolution decides what counts as an error: state that of your\n"
+    out_ << "# A sensor for each joint. Resolution and noise decide what counts as an error: state those of "
+            "your\n"
             "# encoder (counts_per_turn and gear, or resolution). A log with many digits shows its digits, "
             "not\n"
-            "# the encoder.\n"
+            "# the encoder, and a log that was filtered shows no noise.\n"
             "sensors:\n";
     for (const PlannedJoint& one : plan_.joints) {
       const std::string unit = model::position_unit(one.columns.angular);
       out_ << "  " << one.coordinate << ": {measures: " << one.coordinate
-           << ", resolution: " << resolution(one, unit)
-           << ", noise: " << quantity(0.0, unit, "", "assumed", "quantisation only") << "}\n";
+           << ", resolution: " << resolution(one, unit) << ", noise: " << noise(one, unit) << "}\n";
     }
+  }
+
+  /// What a column scatters beyond its quantisation.
+  std::string noise(const PlannedJoint& one, const std::string& unit) const {
+    if (plan_.look != nullptr && one.columns.position >= 0) {
+      const ColumnLook& column = plan_.look->columns[static_cast<std::size_t>(one.columns.position)];
+      const double beyond = column.scatter * column.scatter - column.step * column.step / 12.0;
+      if (beyond > 0.0) {
+        return quantity(std::sqrt(beyond), unit_of(column, unit), "", "source",
+                        file_name(plan_.look->file) + ": scatter of column " + column.name +
+                            " about a smooth motion, beyond its steps");
+      }
+    }
+    return quantity(0.0, unit, "", "assumed", "quantisation only");
   }
 
   std::string resolution(const PlannedJoint& one, const std::string& unit) const {

@@ -73,6 +73,33 @@ TEST_F(CommandUnits, MissingFrictionIsNoWrongUnit) {
   EXPECT_THROW(check_command_units(carriage, trial(1.0, 1000.0 * viscous)), InputError);
 }
 
+// A rotor behind a gear that is fifty times what was guessed is no wrong unit where the guess says so.
+TEST_F(CommandUnits, RotorThatWasGuessedIsNoWrongUnit) {
+  const Eigen::VectorXd geared = force + 50.0 * slider::kMass * motion.a;
+  EXPECT_THROW(check_command_units(carriage, trial(1.0, geared)), InputError) << "stated as known";
+  carriage.motors[0].rotor_inertia.uncertainty = carriage.motors[0].rotor_inertia.value;
+  EXPECT_NO_THROW(check_command_units(carriage, trial(1.0, geared)));
+}
+
+// What hangs at a light forearm may ask for twenty times its torque: the other joint's column says that the
+// unit is right. In a wrong unit no column follows.
+TEST_F(CommandUnits, OneColumnSpeaksForItsUnit) {
+  const std::string folder_of = PLUMBLINE_ROOT "/tests/robots/double_pendulum/";
+  const model::Model arm = model::read_model(folder_of + "model.yaml", effects::Catalogue::all());
+  const Trial right = twin(arm, read_experiment(folder_of + "swing.yaml", arm), {});
+  ASSERT_EQ(right.commands.size(), 2U);
+  EXPECT_NO_THROW(check_command_units(arm, right));
+  Trial loaded = right;
+  loaded.commands[1].values *= 20.0;
+  ASSERT_TRUE(command_gains(arm, loaded).at(1).implausible());
+  EXPECT_NO_THROW(check_command_units(arm, loaded));
+  Trial wrong = right;
+  for (Command& command : wrong.commands) {
+    command.values *= 1000.0;
+  }
+  EXPECT_THROW(check_command_units(arm, wrong), InputError);
+}
+
 TEST_F(CommandUnits, TwinsOfThePendulum) {
   const model::Model pendulum =
       model::read_model(PLUMBLINE_ROOT "/tests/robots/pendulum/model.yaml", effects::Catalogue::all());

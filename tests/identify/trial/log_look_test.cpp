@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/identify/trial/fixture.h"
 #include "validation/identify/trial/trial.h"
@@ -37,6 +38,28 @@ class LookAtLog : public ScratchFolder {
     return look_at(read_log((folder / name).string()));
   }
 };
+
+/// A sine of 1 Hz at 100 Hz in steps of `step`, with normal noise and two shocks of 0.3.
+std::string noisy_csv(double sigma, double step) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, sigma);
+  std::ostringstream csv;
+  csv.precision(17);
+  csv << "t,q\n";
+  for (int k = 0; k < 3000; ++k) {
+    const double shock = k == 1000 || k == 2000 ? 0.3 : 0.0;
+    const double q = 0.7 * std::sin(2.0 * M_PI * 0.01 * k) + noise(random) + shock;
+    csv << 0.01 * k << ',' << (step > 0.0 ? step * std::round(q / step) : q) << '\n';
+  }
+  return csv.str();
+}
+
+TEST_F(LookAtLog, ScatterIsTheNoiseAndNotTheMotion) {
+  EXPECT_NEAR(look(noisy_csv(2e-4, 0.0)).columns[1].scatter, 2e-4, 0.15 * 2e-4);
+  EXPECT_NEAR(look(noisy_csv(1e-9, 1e-3)).columns[1].scatter, 1e-3 / std::sqrt(12.0), 0.25e-3)
+      << "quantisation alone";
+  EXPECT_LT(look(noisy_csv(1e-12, 0.0)).columns[1].scatter, 1e-10) << "a smooth motion has none";
+}
 
 TEST_F(LookAtLog, RolesUnitsAndSampling) {
   const LogLook swing = look(swing_csv("time,q_knee,motor_speed,tau,q_des,foot,mode"));

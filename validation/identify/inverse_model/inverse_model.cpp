@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <set>
 
 #include "simulator/model/plant.h"
 #include "simulator/sensing/low_pass.h"
@@ -97,6 +98,11 @@ CommandGain gain_of(const NeededForce& force) {
   const Eigen::VectorXd commanded_core = commanded - friction * qr.solve(commanded);
   result.core_gain = slope_of(needed_core, commanded_core);
   result.core_correlation = correlation_of(needed_core, commanded_core);
+  const Eigen::VectorXd acceleration = force.acceleration - friction * qr.solve(force.acceleration);
+  const Eigen::VectorXd beyond = commanded_core - needed_core;
+  const Eigen::VectorXd by_rotor = beyond - slope_of(beyond, acceleration) * acceleration;
+  const Eigen::VectorXd by_factor = commanded_core - slope_of(commanded_core, needed_core) * needed_core;
+  result.a_rotor_says_more = by_rotor.norm() < by_factor.norm();
   return result;
 }
 
@@ -184,43 +190,69 @@ std::vector<double> force_floors(const model::Model& model, const Trial& trial, 
   return floors;
 }
 
+namespace {
+constexpr double kFollows = 0.7;
+constexpr double kFactor = 4.0;
+}  // namespace
+
+bool CommandGain::follows() const {
+  return core_correlation > kFollows && core_gain > 1.0 / kFactor && core_gain < kFactor;
+}
+
 bool CommandGain::implausible() const {
-  constexpr double kFollows = 0.7;
-  constexpr double kFactor = 4.0;
   if (gain > kFactor) {
     return correlation > kFollows;
   }
-  return gain < 1.0 / kFactor && core_gain < 1.0 / kFactor && core_correlation > kFollows;
+  return gain < 1.0 / kFactor && core_gain < 1.0 / kFactor && core_correlation > kFollows &&
+         !(rotor_is_open && a_rotor_says_more);
 }
 
 std::vector<CommandGain> command_gains(const model::Model& model, const Trial& trial) {
   std::vector<CommandGain> gains;
   for (const NeededForce& force : inverse_model(model, trial, {}).motors) {
     gains.push_back(gain_of(force));
+    gains.back().rotor_is_open = model.find_motor(force.motor)->rotor_inertia.uncertainty > 0.0;
   }
   return gains;
 }
 
+namespace {
+
+/// The unit in which the column of this command is declared.
+std::string declared_unit(const model::Model& model, const Command& command) {
+  return command.unit.empty() ? model.find_motor(command.motor)->command_unit : command.unit;
+}
+
+const Command* command_of(const Trial& trial, const std::string& motor) {
+  const auto found = std::find_if(trial.commands.begin(), trial.commands.end(),
+                                  [&](const Command& command) { return command.motor == motor; });
+  return found == trial.commands.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 void check_command_units(const model::Model& model, const Trial& trial) {
-  for (const CommandGain& gain : command_gains(model, trial)) {
-    if (!gain.implausible()) {
+  const std::vector<CommandGain> gains = command_gains(model, trial);
+  std::set<std::string> right;
+  for (const CommandGain& gain : gains) {
+    const Command* command = command_of(trial, gain.motor);
+    if (command != nullptr && gain.follows()) {
+      right.insert(declared_unit(model, *command));
+    }
+  }
+  for (const CommandGain& gain : gains) {
+    const Command* command = command_of(trial, gain.motor);
+    if (command == nullptr || !gain.implausible() || right.count(declared_unit(model, *command)) != 0) {
       continue;
     }
-    for (const Command& command : trial.commands) {
-      if (command.motor != gain.motor) {
-        continue;
-      }
-      const std::string& unit = model.find_motor(gain.motor)->command_unit;
-      const std::string column =
-          "column \"" + command.column + "\" in " + (command.unit.empty() ? unit : command.unit);
-      char factor[32];
-      std::snprintf(factor, sizeof factor, "%.3g", gain.factor());
-      throw InputError(
-          {trial.file, 0, "commands." + gain.motor + ".column"},
-          "that the measured motion needs " + std::string(factor) + " times the force of " + column,
-          "about 1 times: the unit of this column is probably wrong (here, or as the motor's "
-          "command_unit in the model), or that of a measured position");
-    }
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.3g", gain.factor());
+    throw InputError({trial.file, 0, "commands." + gain.motor + ".column"},
+                     "that the measured motion needs " + std::string(factor) +
+                         " times the force of column \"" + command->column + "\" in " +
+                         declared_unit(model, *command),
+                     "about 1 times: the unit of this column is probably wrong (here, or as the motor's "
+                     "command_unit in the model), or that of a measured position");
   }
 }
 

@@ -64,12 +64,19 @@ struct CommandGain {
   std::string motor;
   double gain = 0.0, correlation = 0.0;
   double core_gain = 0.0, core_correlation = 0.0;
+  bool rotor_is_open = false;  ///< the model states an uncertainty of the rotor's inertia
+  /// Friction and a multiple of the acceleration leave less of the commanded force than friction and a
+  /// factor.
+  bool a_rotor_says_more = false;
 
   /// The better correlated of the two gains: nearest to the factor between two units.
   double factor() const { return core_correlation > correlation ? core_gain : gain; }
+  /// The core follows the commanded force by a factor of 1/4 to 4: the unit of this command is right.
+  bool follows() const;
   /// True when no missing effect explains the gain: needed and commanded force follow each other
   /// (correlation above 0.7) by a factor outside 1/4 to 4. Where the motion needs less than commanded,
-  /// friction or a spring that the model lacks could be the reason, so there the core must say the same.
+  /// friction or a spring that the model lacks could be the reason, so there the core must say the same; and
+  /// a rotor behind a gear may be many times what was guessed, so that an open one must not say more.
   bool implausible() const;
 };
 
@@ -77,7 +84,9 @@ struct CommandGain {
 std::vector<CommandGain> command_gains(const model::Model& model, const Trial& trial);
 
 /// Throws InputError that names trial, command column, unit and factor when a command's gain is implausible:
-/// a unit was declared wrongly, in the trial or in the model.
+/// a unit was declared wrongly, in the trial or in the model. One command that follows speaks for all columns
+/// in its unit: a joint that carries only a light wrist needs a fraction of its torque when a load hangs
+/// there that the model does not know.
 void check_command_units(const model::Model& model, const Trial& trial);
 
 }  // namespace plumbline::validation

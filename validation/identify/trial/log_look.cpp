@@ -130,6 +130,36 @@ void look_at_values(const Column& from, ColumnLook& look) {
   }
 }
 
+/// ColumnLook::scatter.
+double scatter_of(const Eigen::VectorXd& values) {
+  constexpr int kHighest = 10;
+  constexpr double kNormalMedian = 0.6744897501960817;  // of the magnitude of a standard normal number
+  std::vector<double> differences;
+  for (const double value : values) {
+    if (std::isfinite(value)) {
+      differences.push_back(value);
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  double binomial = 1.0;  // C(2p, p)
+  for (int p = 1; p <= kHighest && differences.size() > 2 * kHighest; ++p) {
+    for (std::size_t k = 0; k + 1 < differences.size(); ++k) {
+      differences[k] = differences[k + 1] - differences[k];
+    }
+    differences.pop_back();
+    binomial *= 2.0 * (2.0 * p - 1.0) / p;
+    if (p > 1) {
+      std::vector<double> magnitudes(differences.size());
+      std::transform(differences.begin(), differences.end(), magnitudes.begin(),
+                     [](double d) { return std::abs(d); });
+      const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+      std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+      least = std::min(least, *middle / (kNormalMedian * std::sqrt(binomial)));
+    }
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
 bool rises(const Column& column) {
   Eigen::Index rising = 0;
   for (Eigen::Index k = 1; k < column.values.size(); ++k) {
@@ -372,6 +402,7 @@ LogLook look_at(const LogFile& log) {
     one.name = column.name;
     one.unit = column.unit;
     look_at_values(column, one);
+    one.scatter = scatter_of(column.values);
     const auto bad = log.bad.find(column.name);
     if (bad != log.bad.end() && !bad->second.missing) {
       one.text = bad->second.text;

@@ -19,9 +19,15 @@ struct ColumnLook {
   bool unit_is_guess = false;  ///< the file states none
   double lowest = 0.0, highest = 0.0;
   double step = 0.0;  ///< smallest difference of two values that occur: the resolution; 0: no two
-  long values = 0;    ///< how many different ones, at most 1000 counted
-  long missing = 0;   ///< cells without a number
-  std::string text;   ///< such a cell that is no missing one
+  /// Standard deviation about a smooth motion; 0: too few rows, or the values rest. Rows are taken as even.
+  /// The differences of order p of independent noise have the variance C(2p, p) sigma^2, and a motion that is
+  /// smooth over p rows adds nothing to them; sigma is the least of the estimates for p = 2 to 10, each from
+  /// the median of the magnitudes, so that shocks do not count (Gasser, Sroka and Jennen-Steinmetz,
+  /// Biometrika 73, 1986).
+  double scatter = 0.0;
+  long values = 0;   ///< how many different ones, at most 1000 counted
+  long missing = 0;  ///< cells without a number
+  std::string text;  ///< such a cell that is no missing one
   ColumnRole role = ColumnRole::other;
   std::string why;  ///< the reason for the role
 };

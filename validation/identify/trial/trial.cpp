@@ -33,12 +33,14 @@ struct Rows {
                        number_text(time[time.size() - 1]) + " s");
 }
 
-Rows rows_of(const Section& section, const Eigen::VectorXd& time) {
+/// `beyond`: s that a section may end behind the last row. Even samples may end up to one step before the
+/// last row of an uneven recording, and a section that ends with the recording is meant to.
+Rows rows_of(const Section& section, const Eigen::VectorXd& time, double beyond = 0.0) {
   const double* begin = time.data();
   const double* end = begin + time.size();
   const double* from = std::lower_bound(begin, end, section.from);
   const double* to = std::lower_bound(begin, end, section.to);
-  if (from == to || section.to > time[time.size() - 1]) {
+  if (from == to || section.to > time[time.size() - 1] + beyond) {
     refuse_section(section, time);
   }
   return {from - begin, to - from};
@@ -161,7 +163,7 @@ class TrialReader {
     const double end = trial_.time[trial_.samples() - 1] + 2.0 * trial_.period;
     double behind = trial_.time[0] - 2.0 * trial_.period;
     for (const Section& section : file_.sections) {
-      rows_of(section, trial_.time);  // refuses one that is not there
+      rows_of(section, trial_.time, trial_.period);  // refuses one that is not there
       gaps_.push_back({behind, section.from});
       behind = section.to - 2.0 * grid_.hair();
     }
