@@ -108,6 +108,9 @@ std::string unit_of(const ColumnLook& column, const std::string& wanted) {
   return !column.unit.empty() && units_agree(column.unit, wanted) ? column.unit : wanted;
 }
 
+/// A position that scatters by less of its range (17 bits) is no encoder's.
+constexpr double kFinest = 1e-5;
+
 class ModelWriter {
  public:
   explicit ModelWriter(const Plan& plan) : plan_(plan), file_(file_name(plan.skeleton_path)) {}
@@ -273,10 +276,16 @@ class ModelWriter {
     if (plan_.look != nullptr && one.columns.position >= 0) {
       const ColumnLook& column = plan_.look->columns[static_cast<std::size_t>(one.columns.position)];
       const double beyond = column.scatter * column.scatter - column.step * column.step / 12.0;
-      if (beyond > 0.0) {
+      const double finest = kFinest * (column.highest - column.lowest);
+      if (beyond > finest * finest) {
         return quantity(std::sqrt(beyond), unit_of(column, unit), "", "source",
                         file_name(plan_.look->file) + ": scatter of column " + column.name +
                             " about a smooth motion, beyond its steps");
+      }
+      if (column.step < finest) {
+        return quantity(finest, unit_of(column, unit), "", "assumed",
+                        "1e-5 of its range: column " + column.name +
+                            " is smoother than an encoder, so filtered or computed");
       }
     }
     return quantity(0.0, unit, "", "assumed", "quantisation only");

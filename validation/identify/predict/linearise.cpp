@@ -97,7 +97,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
       out.Jx.row(row) = slopes.row(s).head(nx) / floors_[c];
       out.Jp.row(row) = slopes.row(s).tail(np) / floors_[c];
     }
-    if (k + 1 == window.count) {
+    if (k == held_from_) {
       break;
     }
     plates.begin();

@@ -9,6 +9,7 @@ namespace plumbline::validation {
 void Predictor::begin_nodes(const Window& window) {
   states_.resize(plant_.states(), window.count);
   nodes_ = 1;
+  held_from_ = window.count - 1;
   node_of_sample_.clear();
   node_times_.clear();
   jumps_ = plant_.jumps();
@@ -35,6 +36,18 @@ void Predictor::add_sample(Eigen::Index sample, const Eigen::VectorXd& state) {
   }
   node_of_sample_.push_back(nodes_);
   add_node(static_cast<double>(sample) * trial_.period, state);
+}
+
+// All samples behind this one are its node.
+void Predictor::hold(const Window& window, Eigen::Index sample) {
+  if (node_of_sample_.empty()) {
+    for (Eigen::Index k = 0; k < nodes_; ++k) {
+      node_of_sample_.push_back(k);
+      node_times_.push_back(static_cast<double>(k) * trial_.period);
+    }
+  }
+  held_from_ = sample;
+  node_of_sample_.resize(static_cast<std::size_t>(window.count), node_of(sample));
 }
 
 // A foot that is not in the ground but would be there within two samples may meet it in this one.

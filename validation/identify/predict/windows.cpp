@@ -48,7 +48,10 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
       options_(options),
       plant_(as_recorded(model, trial), trial.locks, trial.terrain),
       from_channels_(plant_, start_observations(plant_, trial)) {
+  constexpr double kRanges = 10.0;
+  constexpr double kFloors = 1e4;
   floors_.resize(static_cast<Eigen::Index>(trial.measured.size()));
+  farthest_.resize(floors_.size());
   for (std::size_t c = 0; c < trial.measured.size(); ++c) {
     const int s = model.sensor_index(trial.measured[c].sensor);
     sensor_of_channel_.push_back(s);
@@ -57,6 +60,9 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     if (sensor.shows_position()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
+    const Eigen::VectorXd& values = trial.measured[c].values;
+    const double range = values.maxCoeff() - values.minCoeff();
+    farthest_[static_cast<Eigen::Index>(c)] = std::max(kRanges * range, kFloors * sensor.floor());
   }
   for (const SwitchRecord& record : trial.switches) {
     const model::ContactSwitch* known = model.find_switch(record.name);
@@ -207,16 +213,37 @@ bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
       }
     }
     add_sample(k + 1, integrator.state());
+    const bool left = has_left(window, k + 1);
+    if (left) {
+      hold(window, k + 1);
+    }
     if (static_cast<double>(integrator.summary().steps) > most_steps * (static_cast<double>(k) + burst)) {
       throw std::runtime_error("a window needs more integrator steps than are worth while");
     }
-    if (is_watched) {
-      square += square_of_sample(window, k + 1);
+    const Eigen::Index last = left ? window.count - 1 : k + 1;
+    for (Eigen::Index sample = k + 1; is_watched && within && sample <= last; ++sample) {
+      square += square_of_sample(window, sample);
       within = square <= most;
+    }
+    if (left) {
+      break;
     }
   }
   evaluations_ += integrator.summary().rate_evaluations;
   return within;
+}
+
+bool Predictor::has_left(const Window& window, Eigen::Index sample) {
+  Eigen::VectorXd y(plant_.sensors());
+  plant_.outputs(states_.col(node_of(sample)).data(), y.data());
+  for (int c = 0; c < channels(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const double off = trial_.measured[i].values[window.first + sample] - y[sensor_of_channel_[i]];
+    if (std::abs(off) > farthest_[c]) {
+      return true;
+    }
+  }
+  return false;
 }
 
 double Predictor::square_of_sample(const Window& window, Eigen::Index sample) {
@@ -269,6 +296,10 @@ Eigen::MatrixXd Predictor::predicted(const Window& window) {
   Eigen::VectorXd y(plant_.sensors());
   integrate::PlateMeans plates(plant_);
   for (Eigen::Index k = 0; k < window.count; ++k) {
+    if (k > held_from_) {
+      predicted.row(k) = predicted.row(held_from_);
+      continue;
+    }
     plant_.outputs(states_.col(node_of(k)).data(), y.data());
     average_plates(k, plates, y);
     for (int c = 0; c < channels(); ++c) {

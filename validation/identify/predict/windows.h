@@ -122,7 +122,9 @@ class Predictor {
   };
   Anchor anchor(const Window& window, const Eigen::VectorXd& x0, const Eigen::VectorXd& r);
 
-  /// Predicted channels, count x channels, SI.
+  /// Predicted channels, count x channels, SI. A prediction that is ten times the channel's whole range in
+  /// the trial and ten thousand floors away says no more of the motion, and may take long to compute: from
+  /// there it is held where it is, and has no slopes.
   Eigen::MatrixXd predict(const Window& window, const Eigen::VectorXd& x0);
   /// States of the window predicted last at its samples, states x count.
   Eigen::MatrixXd predicted_states() const;
@@ -186,6 +188,8 @@ class Predictor {
   void add_node(double time, const Eigen::VectorXd& state);  // s after the window's first sample
   void add_sample(Eigen::Index sample, const Eigen::VectorXd& state);
   Eigen::Index node_of(Eigen::Index sample) const;
+  bool has_left(const Window& window, Eigen::Index sample);
+  void hold(const Window& window, Eigen::Index sample);
   double node_time(Eigen::Index node) const;  // s after the window's first sample
   double length_of(Eigen::Index node) const;
   void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
@@ -229,8 +233,10 @@ class Predictor {
   Eigen::Index nodes_ = 0;
   std::vector<Eigen::Index> node_of_sample_;  // both empty where every node is a sample
   std::vector<double> node_times_;            // s, after the window's first sample
-  std::vector<model::Plant::Jump> jumps_;     // that the model's forces can make
-  std::vector<JumpNode> jump_nodes_;          // that they made
+  Eigen::Index held_from_ = 0;                // the sample behind which the prediction is held, or the last
+  Eigen::VectorXd farthest_;  // by channel: how far from the measurement a prediction is followed
+  std::vector<model::Plant::Jump> jumps_;  // that the model's forces can make
+  std::vector<JumpNode> jump_nodes_;       // that they made
   std::size_t events_seen_ = 0;
   Eigen::MatrixXd motion_;  // positions and velocities x samples, measured; empty until it is needed
   long evaluations_ = 0;
