@@ -58,7 +58,7 @@ TEST(SavedDiagnosis, KeepsTwoEffectsThatAreNoSum) {
 TEST(SavedDiagnosis, KeepsWhereTheModelsOwnNumbersCameTo) {
   validation::Diagnosis diagnosis;
   diagnosis.final_stage.model = given();
-  ASSERT_EQ(given().effects.front().label(), "viscous@drive");
+  ASSERT_EQ(given().effects.front().label(), "viscous at drive");
   diagnosis.final_stage.model.effects.front().values.front().value *= 0.9;
   const std::string file = testing::TempDir() + "found_own.yaml";
   save(diagnosis, given(), file);
