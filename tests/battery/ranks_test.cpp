@@ -20,6 +20,10 @@ json timeless(json value) {
                              "targets_met", "targets"}) {
       value.erase(name);
     }
+    if (value.value("measure", "").rfind("seconds", 0) == 0) {  // of the scoreboard
+      value.erase("measured");
+      value.erase("met");
+    }
   }
   for (json& part : value) {
     if (part.is_structured()) {
