@@ -7,6 +7,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/api/changed_model.h"
 #include "validation/api/diagnosing.h"
 
 namespace plumbline::api {
@@ -50,6 +51,24 @@ TEST(SavedDiagnosis, TakesANamedInertiaIntoTheNumberThatWasOpen) {
 TEST(SavedDiagnosis, KeepsTwoEffectsThatAreNoSum) {
   const model::Model model = saved("viscous", "drive", {1e-5}, {2e-5});
   EXPECT_EQ(model.effects.size(), given().effects.size() + 2);
+}
+
+// A number that was open and then held where it came to is no parameter of the last stage: the error rests
+// on it all the same.
+TEST(SavedDiagnosis, KeepsWhereTheModelsOwnNumbersCameTo) {
+  validation::Diagnosis diagnosis;
+  diagnosis.final_stage.model = given();
+  ASSERT_EQ(given().effects.front().label(), "viscous at drive");
+  diagnosis.final_stage.model.effects.front().values.front().value *= 0.9;
+  const std::string file = testing::TempDir() + "found_own.yaml";
+  save(diagnosis, given(), file);
+  const double saved = model::read_model(file, model::known_effects()).effects.front().values.front().value;
+  EXPECT_DOUBLE_EQ(saved, 0.9 * given().effects.front().values.front().value);
+  const ChangedModel changed = diagnosed(read_model(kModel), diagnosis);
+  save(changed, file, "test");
+  EXPECT_DOUBLE_EQ(model::read_model(file, model::known_effects()).effects.front().values.front().value,
+                   saved);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

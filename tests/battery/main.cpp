@@ -35,6 +35,7 @@ struct Inputs {
   bool score = false;
   bool sweep = false;
   std::string results, json, csv;
+  std::vector<std::string> durations;
 };
 
 /// Cases of the rigs that the world can play, whose name contains one of the words; all when there are none.
@@ -97,9 +98,14 @@ void show(const Result& result, const Inputs& inputs) {
 /// Each case by one of the ranks. What they tell of candidates (--explain) stays where it was found.
 std::vector<Result> results_of_ranks(const std::vector<Case>& cases, const Inputs& inputs,
                                      work::Workers& workers, ResultsFile* file) {
+  work::Durations durations;
+  for (const std::string& results : inputs.durations) {
+    add_durations(results, durations);
+  }
   std::vector<work::Task> tasks;
   for (const Case& one : cases) {
-    tasks.push_back({one.name, [&] { return to_json(run_case(one, inputs.run)).dump(); }});
+    tasks.push_back(
+        {one.name, [&] { return to_json(run_case(one, inputs.run)).dump(); }, durations.of(one.name)});
   }
   work::Watch watch;
   watch.known = [&](std::size_t c) {
@@ -228,6 +234,11 @@ int main(int argc, char** argv) {
       ->type_name("FILE")
       ->excludes(
           app.add_flag("--bare", inputs.run.bare_only, "no diagnosis: only the error of the model as it is"));
+  app.add_option("--durations", inputs.durations,
+                 "on several ranks: results of an earlier run, whose longest cases are begun first; may be "
+                 "repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   app.add_flag("--score", inputs.score, "run nothing: the scoreboard of what stands in the results' file")
       ->needs("--results");
   app.add_flag(

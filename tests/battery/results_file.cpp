@@ -82,4 +82,17 @@ void ResultsFile::append(const std::string& line) const {
   }
 }
 
+void add_durations(const std::string& file, work::Durations& durations) {
+  std::ifstream in(file);
+  if (!in) {
+    throw std::runtime_error(file + ": no such file");
+  }
+  for (std::string line; std::getline(in, line);) {
+    const nlohmann::json result = nlohmann::json::parse(line, nullptr, false);
+    if (result.is_object() && result.contains("case") && result.contains("processor_seconds")) {
+      durations.add(result["case"], result["processor_seconds"]);
+    }
+  }
+}
+
 }  // namespace plumbline::battery

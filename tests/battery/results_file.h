@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/battery/run_case.h"
+#include "work/durations.h"
 
 namespace plumbline::battery {
 
@@ -30,5 +31,9 @@ class ResultsFile {
   std::string file_;
   std::vector<Result> results_;
 };
+
+/// How long cases took, from a file of results of whatever options: what cannot be read in it is not known.
+/// Throws std::runtime_error where there is no such file.
+void add_durations(const std::string& file, work::Durations& durations);
 
 }  // namespace plumbline::battery

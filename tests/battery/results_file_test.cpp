@@ -88,5 +88,15 @@ TEST_F(ResultsFileTest, NamesTheLineThatIsNoResult) {
                   testing::AllOf(testing::HasSubstr(file_ + ":3: "), testing::HasSubstr("with"))));
 }
 
+TEST_F(ResultsFileTest, TellsHowLongCasesTook) {
+  ResultsFile(file_, options_).add(result());
+  append("{\"case\": \"leg_ben");
+  work::Durations durations;
+  add_durations(file_, durations);
+  EXPECT_EQ(durations.of(result().one.name), 80.25);
+  EXPECT_EQ(durations.of("leg_ben"), 0.0);
+  EXPECT_THROW(add_durations(file_ + ".not", durations), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace plumbline::battery

@@ -64,6 +64,9 @@ class Real(unittest.TestCase):
         self.assertAlmostEqual(first[2], 0.1 * np.sin(2.0), places=6)
         with open(os.path.join(self.root, "cases/real_emps/test_1.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline().strip(), "t [s],u_guide [N m]")
+        # The motor's angle by a place: the same units as of the made machines that slide.
+        self.assertEqual(case["drives"][0]["ratio"]["unit"], "rad/m")
+        self.assertEqual(case["drives"][0]["rotor_inertia"]["unit"], "kg m^2")
         self.assertIn({"kind": "asymmetric_friction", "place": "guide"}, case["allowed"])
         self.assertNotIn("truth", json.dumps(case))
 

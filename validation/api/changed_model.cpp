@@ -27,6 +27,27 @@ bool has_one_before(const model::Model& model, std::size_t index) {
 
 }  // namespace
 
+double value_at(const model::Model& model, const model::ParameterId& id) {
+  return model.effects[static_cast<std::size_t>(id.effect)]
+      .values[static_cast<std::size_t>(id.parameter)]
+      .value;
+}
+
+std::vector<FreeParameter> moved_from(const model::Model& given, const validation::Stage& found) {
+  std::vector<FreeParameter> moved;
+  for (const FreeParameter& parameter : validation::free_parameters(found.model)) {
+    const auto is_this = [&](const FreeParameter& other) {
+      return other.id.effect == parameter.id.effect && other.id.parameter == parameter.id.parameter;
+    };
+    const bool is_own = parameter.id.effect < static_cast<int>(given.effects.size());
+    if (is_own && (value_at(given, parameter.id) != value_at(found.model, parameter.id) ||
+                   std::any_of(found.parameters.begin(), found.parameters.end(), is_this))) {
+      moved.push_back(parameter);
+    }
+  }
+  return moved;
+}
+
 ChangedModel read_model(const std::string& file) {
   ChangedModel changed;
   changed.model = model::read_model(file, model::known_effects());
@@ -61,8 +82,9 @@ ChangedModel fitted(const ChangedModel& model, const validation::Fit& fit, const
 ChangedModel diagnosed(const ChangedModel& model, const validation::Diagnosis& diagnosis) {
   ChangedModel changed = model;
   changed.source = "diagnose";
-  const validation::Stage& stage = diagnosis.final_stage;
-  const model::Model found = validation::fitted_model(stage);
+  validation::Stage stage = diagnosis.final_stage;
+  stage.model = validation::fitted_model(stage);
+  const model::Model& found = stage.model;
   const std::size_t given = model.model.effects.size();
   for (std::size_t e = 0; e < given; ++e) {
     changed.model.effects[e] = found.effects[e];
@@ -72,7 +94,7 @@ ChangedModel diagnosed(const ChangedModel& model, const validation::Diagnosis& d
       changed.model.effects.push_back(found.effects[e]);
     }
   }
-  for (const FreeParameter& parameter : stage.parameters) {
+  for (const FreeParameter& parameter : moved_from(model.model, stage)) {
     if (parameter.id.effect < static_cast<int>(changed.own)) {
       changed.set[parameter.label] = 0.0;
     }

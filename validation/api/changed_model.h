@@ -18,6 +18,9 @@ struct ChangedModel {
   std::string source;  ///< of these
 };
 
+/// Of a parameter, SI.
+double value_at(const model::Model& model, const model::ParameterId& id);
+
 ChangedModel read_model(const std::string& file);
 
 /// The model with the values of a fit that the data depend on.
@@ -25,6 +28,10 @@ ChangedModel fitted(const ChangedModel& model, const validation::Fit& fit, const
 
 /// The model with what a diagnosis added and moved.
 ChangedModel diagnosed(const ChangedModel& model, const validation::Diagnosis& diagnosis);
+
+/// Parameters of the given model's own effects that a diagnosis left open, or holds at another value than the
+/// model states: what the error rests on, and must be written. `found.model` has the values that were found.
+std::vector<validation::FreeParameter> moved_from(const model::Model& given, const validation::Stage& found);
 
 /// The model with one effect more.
 ChangedModel with_effect(const ChangedModel& model, model::EffectUse use);

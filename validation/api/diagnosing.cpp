@@ -8,6 +8,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/api/changed_model.h"
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/found_values.h"
 #include "validation/identify/diagnose/judged.h"
@@ -325,13 +326,10 @@ void save(const Diagnosis& diagnosis, const model::Model& given, const std::stri
       added.push_back({use.law->declaration().name, use.at, numbers, has_one(given, added, use), deviations});
     }
   }
-  for (std::size_t p = 0; p < stage.parameters.size(); ++p) {
-    const auto& parameter = stage.parameters[p];
-    if (parameter.id.effect < static_cast<int>(own)) {
-      const double deviation = validation::found_deviation(diagnosis, parameter.id);
-      values.push_back({parameter.label, stage.estimate.theta[static_cast<Eigen::Index>(p)],
-                        std::isfinite(deviation) ? deviation : 0.0, parameter.unit, "diagnose"});
-    }
+  for (const validation::FreeParameter& parameter : moved_from(given, stage)) {
+    const double deviation = validation::found_deviation(diagnosis, parameter.id);
+    values.push_back({parameter.label, value_at(stage.model, parameter.id),
+                      std::isfinite(deviation) ? deviation : 0.0, parameter.unit, "diagnose"});
   }
   model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
                        model::known_effects());

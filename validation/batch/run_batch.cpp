@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <mutex>
-#include <sstream>
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/table.h"
 #include "validation/batch/batch.h"
 #include "validation/batch/batch_page.h"
+#include "work/durations.h"
 
 namespace plumbline::batch {
 namespace {
@@ -25,44 +22,8 @@ void make_folder(const std::string& folder) {
   }
 }
 
-/// How long rows took at an earlier time, so that the longest is begun first. Not a result: it differs from
-/// run to run, and may be deleted.
-class Durations {
- public:
-  explicit Durations(std::string file) : file_(std::move(file)) {
-    std::ifstream in(file_);
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream words(line);
-      std::string label;
-      double seconds = 0.0;
-      if (std::getline(words, label, ',') && words >> seconds) {
-        known_[label] = seconds;
-      }
-    }
-  }
-  double of(const std::string& label) const {
-    const auto found = known_.find(label);
-    return found == known_.end() ? 0.0 : found->second;
-  }
-  /// A row that was only read again says nothing of its work.
-  void add(const std::string& label, double seconds) { known_[label] = std::max(seconds, of(label)); }
-  void write() const {
-    std::string text = "label,seconds\n";
-    for (const auto& [label, seconds] : known_) {
-      if (label != "label") {
-        text += label + "," + std::to_string(seconds) + "\n";
-      }
-    }
-    write_text_atomically(file_, text);
-  }
-
- private:
-  std::string file_;
-  std::map<std::string, double> known_;
-};
-
 std::vector<work::Task> tasks_of(const std::vector<Row>& rows, const BatchOptions& options,
-                                 const Durations& durations) {
+                                 const work::Durations& durations) {
   std::vector<work::Task> tasks;
   for (const Row& row : rows) {
     tasks.push_back(
@@ -107,7 +68,8 @@ BatchResult run_batch(const Jobs& jobs, const BatchOptions& options, const valid
   workers.check_shared(options.out);
   const bool is_whole = options.parts == 1;
   const std::vector<Row> rows = part_of(jobs.rows, options);
-  Durations durations(options.out + "/durations.csv");
+  const std::string times = options.out + "/durations.csv";
+  work::Durations durations(times);
   std::size_t done = 0;
   work::Watch watch;
   watch.stop = &options.stop->raised;
@@ -117,7 +79,7 @@ BatchResult run_batch(const Jobs& jobs, const BatchOptions& options, const valid
   };
   const work::Results results = workers.run(tasks_of(rows, options, durations), watch);
   if (workers.is_first() && is_whole) {
-    durations.write();
+    write_text_atomically(times, durations.text("label"));
   }
   if (results.stopped) {
     throw validation::Stopped();

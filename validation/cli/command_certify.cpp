@@ -51,6 +51,7 @@ void run(const Options& options, Outcome& outcome) {
   validation::CertifyOptions certify;
   certify.certificate = options.out;
   certify.progress = options.out + ".progress";
+  certify.durations = options.out + ".durations";
   certify.version = PLUMBLINE_VERSION;
   work::Threads threads(options.threads > 0 ? options.threads : work::cores());
   certify.workers = workers().ranks() > 1 ? &workers() : &threads;

@@ -11,6 +11,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/ranks.h"
 #include "validation/studies/step_down/step_down.h"
 
 namespace plumbline::cli {
@@ -168,7 +169,9 @@ void keep_one(StepDownTest& test, const std::string& name) {
 }
 
 void run(const StepDownArguments& arguments) {
-  check_writable(arguments.json);
+  if (workers().is_first()) {
+    check_writable(arguments.json);
+  }
   StepDownTest test = validation::read_step_down(arguments.file);
   if (!arguments.controller.empty()) {
     keep_one(test, arguments.controller);
@@ -181,10 +184,19 @@ void run(const StepDownArguments& arguments) {
   }
   validation::StepDownOptions options = arguments.options;
   options.stop = &stop_flag();
+  options.workers = &workers();
+  std::vector<std::string> files{test.file, test.scenario.scenario.file, test.scenario.model.file};
+  for (const StepDownTest::Controller& controller : test.controllers) {
+    files.push_back(controller.setup.file);
+  }
+  check_same_files(files);
   ProgressLine line;
   const validation::Progress show = line.callback();
   const std::vector<StepDownShare> cells =
       validation::step_down_all(test, options, [&](double done) { show("runs", done); });
+  if (!workers().is_first()) {
+    return;
+  }
   fmt::print(
       "{}: the ground falls at {:.1f} m; passed: {} touchdowns below; the fuse breaks at {:.0f} N s up.\n\n",
       test.title, test.edge, test.enough, test.fuse);

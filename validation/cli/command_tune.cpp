@@ -8,6 +8,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/ranks.h"
 #include "validation/control/tune/tune.h"
 
 namespace plumbline::cli {
@@ -73,8 +74,10 @@ void save(const Options& options, const validation::TuneFile& file, const valida
 }
 
 void run(Options options) {
-  check_writable(options.json);
-  check_writable(options.save);
+  if (workers().is_first()) {
+    check_writable(options.json);
+    check_writable(options.save);
+  }
   validation::TuneFile file = validation::read_tune(options.file);
   options.published.gait = file.gait;
   const validation::PublishedRobot robot = validation::read_published(file.published, options.published);
@@ -85,12 +88,18 @@ void run(Options options) {
   }
   check_not_an_input(options.save, {options.file, gait.loaded.controller->file});
   validation::check_searched(file, *gait.loaded.controller);
+  check_same_files({options.file, file.published, gait.loaded.scenario.file, gait.loaded.model.file,
+                    gait.loaded.controller->file});
   options.tune.run.integrator.set_tolerance(options.tolerance);
   options.tune.stop = &stop_flag();
+  options.tune.workers = &workers();
   print_now(head_of(file, gait));
   const TuneResult best =
       validation::tune(gait, file.searched, options.tune,
                        [&](int, const TuneResult& result) { print_now(row_of(result, file, gait)); });
+  if (!workers().is_first()) {
+    return;
+  }
   fmt::print("\n{}:\n", best.interrupted ? "Stopped before the end. The best so far" : "The best");
   print_now(row_of(best, file, gait));
   if (!options.save.empty()) {

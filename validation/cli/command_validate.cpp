@@ -10,6 +10,7 @@
 #include "validation/cli/inputs.h"
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
+#include "validation/cli/ranks.h"
 #include "validation/control/published/validate.h"
 #include "validation/studies/running/published_running.h"
 
@@ -29,6 +30,25 @@ struct Options {
   bool no_orbit = false, no_held = false;
   std::vector<std::string> models;
 };
+
+/// The ranks of a job have the same results; one of them writes.
+void write_results(const nlohmann::json& json, const Options& options) {
+  if (workers().is_first()) {
+    write_json(json, options.json);
+  }
+}
+
+/// What all ranks must read alike.
+void check_inputs(const validation::PublishedRobot& robot) {
+  std::vector<std::string> files{robot.file};
+  for (const validation::PublishedGait& gait : robot.gaits) {
+    files.insert(files.end(), {gait.loaded.scenario.file, gait.loaded.model.file});
+    if (gait.loaded.controller) {
+      files.push_back(gait.loaded.controller->file);
+    }
+  }
+  check_same_files(files);
+}
 
 std::string published_file(const std::string& robot) {
   if (fs::is_directory(robot)) {
@@ -242,6 +262,7 @@ void run_models(Options& options, Outcome& outcome) {
     options.published.files.model = model;
     const validation::PublishedRobot robot =
         validation::read_published(published_file(options.robot), options.published);
+    check_inputs(robot);
     done.resize(robot.gaits.size());
     for (std::size_t g = 0; g < robot.gaits.size(); ++g) {
       ProgressLine line;
@@ -255,7 +276,7 @@ void run_models(Options& options, Outcome& outcome) {
   for (const std::vector<GaitValidation>& gait : done) {
     print_models(options.models, gait);
   }
-  write_json({{"models", json}, {"holds", holds}}, options.json);
+  write_results({{"models", json}, {"holds", holds}}, options);
   outcome.status = holds ? 0 : 1;
 }
 
@@ -264,12 +285,14 @@ void run_on_its_model(const std::string& file, const Options& options, Outcome& 
   const validation::PublishedRunning published = validation::read_published_running(file);
   const GaitValidation done = validation::validate_running(published);
   print(done, options.run.enough);
-  write_json({{"robot", published.title}, {"gaits", {to_json(done)}}, {"holds", done.holds()}}, options.json);
+  write_results({{"robot", published.title}, {"gaits", {to_json(done)}}, {"holds", done.holds()}}, options);
   outcome.status = done.holds() ? 0 : 1;
 }
 
 void run(Options options, Outcome& outcome) {
-  check_writable(options.json);
+  if (workers().is_first()) {
+    check_writable(options.json);
+  }
   const std::string file = published_file(options.robot);
   if (validation::is_published_running(file)) {
     run_on_its_model(file, options, outcome);
@@ -277,6 +300,7 @@ void run(Options options, Outcome& outcome) {
   }
   options.run.run.integrator.set_tolerance(options.tolerance);
   options.run.stop = &stop_flag();
+  options.run.workers = &workers();
   options.run.orbit = !options.no_orbit;
   options.run.held = !options.no_held;
   if (!options.models.empty()) {
@@ -284,6 +308,7 @@ void run(Options options, Outcome& outcome) {
     return;
   }
   const validation::PublishedRobot robot = validation::read_published(file, options.published);
+  check_inputs(robot);
   nlohmann::json json{{"robot", robot.title}, {"gaits", nlohmann::json::array()}};
   bool holds = true;
   for (const validation::PublishedGait& gait : robot.gaits) {
@@ -294,7 +319,7 @@ void run(Options options, Outcome& outcome) {
     holds = holds && done.holds();
   }
   json["holds"] = holds;
-  write_json(json, options.json);
+  write_results(json, options);
   outcome.status = holds ? 0 : 1;
 }
 

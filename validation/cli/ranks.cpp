@@ -17,6 +17,15 @@ std::unique_ptr<work::Workers>& holder() {
   return the_workers;
 }
 
+/// "tune", "study step-down"; empty where the words begin with an option, or are none.
+std::string command_of(const std::vector<std::string>& words) {
+  if (words.size() < 2 || words[1].rfind('-', 0) == 0) {
+    return "";
+  }
+  const bool is_study = words[1] == "study" && words.size() > 2 && words[2].rfind('-', 0) != 0;
+  return is_study ? words[1] + " " + words[2] : words[1];
+}
+
 }  // namespace
 
 std::string version_text() {
@@ -41,16 +50,27 @@ void start_ranks() {
 
 work::Workers& workers() { return *holder(); }
 
+void check_same_files(const std::vector<std::string>& files) {
+  if (workers().ranks() == 1) {
+    return;
+  }
+  std::string all;
+  for (const std::string& file : files) {
+    all += sha256_of_file(file);
+  }
+  workers().check_same("set of input files", all);
+}
+
 bool is_left_out(const std::vector<std::string>& words) {
-  const std::vector<std::string> shared{"batch", "certify", "diagnose"};
+  const std::vector<std::string> shared{"batch",           "certify", "diagnose",
+                                        "study step-down", "tune",    "validate"};
+  const std::string command = command_of(words);
   const int ranks = workers().ranks();
-  const bool is_shared =
-      words.size() > 1 && std::find(shared.begin(), shared.end(), words[1]) != shared.end();
-  if (ranks == 1 || is_shared) {
+  if (ranks == 1 || std::find(shared.begin(), shared.end(), command) != shared.end()) {
     return false;
   }
-  if (workers().is_first() && words.size() > 1 && words[1].rfind('-', 0) != 0) {
-    fmt::print(stderr, "plumbline: `{}` is no work for several ranks: one of {} does it\n", words[1], ranks);
+  if (workers().is_first() && !command.empty()) {
+    fmt::print(stderr, "plumbline: `{}` is no work for several ranks: one of {} does it\n", command, ranks);
   }
   return !workers().is_first();
 }

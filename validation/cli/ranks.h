@@ -18,6 +18,9 @@ void start_ranks();
 /// Of this process; threads alone where it was started alone.
 work::Workers& workers();
 
+/// Throws work::Refused where ranks read other bytes from these files than the first one does.
+void check_same_files(const std::vector<std::string>& files);
+
 /// Is there nothing for this rank to do? All ranks take part in the commands whose work is shared; any other
 /// command is done by the first one, which says so.
 bool is_left_out(const std::vector<std::string>& words);

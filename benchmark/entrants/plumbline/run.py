@@ -41,10 +41,11 @@ VALUES = {
     ("torque_gain", "scale"): ("gain", 0, 1), ("actuator_lag", "time_constant"): ("time_constant", 0, 1),
     ("actuator_delay", "delay"): ("delay", 0, 1), ("rotor_inertia", "inertia"): ("inertia", 2, 1),
     ("payload", "mass"): ("mass", 0, 1), ("spring", "stiffness"): ("stiffness", 0, 1),
-    ("elastic_drive", "stiffness"): ("stiffness", 0, 1), ("backlash", "gap"): ("gap", 0, 1),
+    ("elastic_drive", "stiffness"): ("stiffness", 2, 1), ("backlash", "gap"): ("gap", -1, 1),
     ("ground_friction", "scale"): ("scale", 0, 1), ("ground_stiffness", "scale"): ("scale", 0, 1), ("ground_damping", "scale"): ("scale", 0, 1),
     ("ground_height", "height"): ("height", 0, 1),
 }
+AT_RATIO = ("elastic_drive", "backlash")  # at the joint's name, in the motor's units
 WHY = 'assumed: "stated in case.json"'
 
 
@@ -175,7 +176,8 @@ def values_of(case, kind, at, parameters):
         if not rule or parameter.get("chosen") or parameter["standard_deviation"] in (None, "inf"):
             continue
         name, power, sign = rule
-        factor = sign * (case.drives[place_of(case, at)]["ratio"]["value"] ** power if at.endswith("_motor") else 1.0)
+        at_motor = at.endswith("_motor") or kind in AT_RATIO
+        factor = sign * (case.drives[place_of(case, at)]["ratio"]["value"] ** power if at_motor else 1.0)
         middle, half = factor * parameter["value"], 1.96 * abs(factor) * parameter["standard_deviation"]
         out[name] = {"value": middle, "interval": [middle - half, middle + half]}
     return out

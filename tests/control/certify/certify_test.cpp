@@ -136,6 +136,42 @@ TEST_F(OfHopping, ARunCanBeRepeated) {
   EXPECT_GT(probed.p999, 0.0);
 }
 
+/// Does nothing: notes the order in which tasks would be begun, and is stopped after the first one.
+class Asked : public work::Workers {
+ public:
+  work::Results run(const std::vector<work::Task>& tasks, const work::Watch& watch) override {
+    begun.clear();
+    for (const std::size_t task : work::order_of(tasks)) {
+      begun.push_back(tasks[task].name);
+    }
+    watch.done(0, "{}", 0.5);
+    return {true, {}};
+  }
+  std::vector<std::string> begun;
+};
+
+TEST(Certify, BeginsWithTheRunsThatTookLongestBefore) {
+  const Folder folder;
+  Asked workers;
+  CertifyOptions options;
+  options.certificate = folder.path("a.cert");
+  options.durations = folder.path("a.cert.durations");
+  options.workers = &workers;
+  EXPECT_THROW(certify(kHopping, options), Stopped);
+  const std::vector<std::string> first = workers.begun;
+  ASSERT_GT(first.size(), 10U);
+  EXPECT_EQ(text_of(options.durations), "task,seconds\n" + first[0] + ",0.500000\n");
+
+  std::ofstream out(options.durations);
+  out << "task,seconds\n";
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    out << first[k] << ',' << k + 1 << '\n';
+  }
+  out.close();
+  EXPECT_THROW(certify(kHopping, options), Stopped);
+  EXPECT_EQ(workers.begun, std::vector<std::string>(first.rbegin(), first.rend()));
+}
+
 TEST(Requirements, WrongOnesAreRefusedInOneLine) {
   const Folder folder;
   const std::string good = text_of(kHopping);

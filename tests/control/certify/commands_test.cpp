@@ -80,6 +80,13 @@ TEST_F(Certify, SignsWhatHoldsAndRefusesOneChangedByte) {
   EXPECT_EQ(certify("a.cert").status, 0);
   EXPECT_EQ(folder.read("body.json"), body);
 
+  // How long runs took decides the order in which they are begun, and nothing else.
+  EXPECT_THAT(folder.read("a.cert.durations"), HasSubstr("start 1,"));
+  fs::remove(folder.path("a.cert.progress"));
+  folder.write("a.cert.durations", "task,seconds\nstart 0,1\ngait 0,2\nstart 1,3\ngait 1,4\n");
+  EXPECT_EQ(certify("a.cert").status, 0);
+  EXPECT_EQ(folder.read("body.json"), body);
+
   // One byte of any file: one line that names it.
   for (const nlohmann::json& file : nlohmann::json::parse(body)["files"]) {
     const std::string name = file["file"];

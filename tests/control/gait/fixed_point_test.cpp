@@ -27,7 +27,7 @@ std::optional<Eigen::VectorXd> rough_map(const Eigen::VectorXd& u) {
 
 TEST(FixedPoint, IsFoundThoughUnstableAndRough) {
   const FixedPoint point =
-      find_fixed_point(rough_map, Eigen::Vector2d(1.1, 1.7), Eigen::Vector2d::Constant(1e-2), 0.02, 10, 2);
+      find_fixed_point(rough_map, Eigen::Vector2d(1.1, 1.7), Eigen::Vector2d::Constant(1e-2), 0.02, 10, {});
   EXPECT_TRUE(point.found);
   EXPECT_NEAR(point.at[0], 1.0, 1e-3);
   EXPECT_NEAR(point.at[1], 2.0, 1e-3);
@@ -36,7 +36,7 @@ TEST(FixedPoint, IsFoundThoughUnstableAndRough) {
 
 TEST(FixedPoint, WhereTheMapEndsNothingIsFound) {
   const FixedPoint point =
-      find_fixed_point(rough_map, Eigen::Vector2d(40.0, 0.0), Eigen::Vector2d::Constant(1e-2), 0.02, 10, 2);
+      find_fixed_point(rough_map, Eigen::Vector2d(40.0, 0.0), Eigen::Vector2d::Constant(1e-2), 0.02, 10, {});
   EXPECT_FALSE(point.found);
 }
 

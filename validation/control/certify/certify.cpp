@@ -9,6 +9,7 @@
 
 #include "controllers/driver/signature.h"
 #include "simulator/trace/error.h"
+#include "simulator/trace/table.h"
 #include "validation/control/certify/drawn_robots.h"
 #include "validation/control/certify/drive_part.h"
 #include "validation/control/certify/lasting.h"
@@ -17,6 +18,7 @@
 #include "validation/control/gait/drawn_models.h"
 #include "validation/control/gait/gait_run.h"
 #include "validation/control/gait/return_map.h"
+#include "work/durations.h"
 
 namespace plumbline::validation {
 namespace {
@@ -223,9 +225,11 @@ class Certification {
   }
 
   void do_units() {
+    work::Durations durations(options_.durations);
     std::vector<work::Task> tasks;
     for (const Unit& unit : units_) {
-      tasks.push_back({unit.key, [&unit] { return driver::canonical_json(unit.work()); }});
+      tasks.push_back(
+          {unit.key, [&unit] { return driver::canonical_json(unit.work()); }, durations.of(unit.key)});
     }
     const std::size_t known = ledger_.size(), open = units_.size() - std::min(known, units_.size());
     std::size_t done = 0;
@@ -235,13 +239,18 @@ class Certification {
       const Json* result = ledger_.find(units_[k].key);
       return result == nullptr ? std::nullopt : std::optional<std::string>(driver::canonical_json(*result));
     };
-    watch.done = [&](std::size_t k, const std::string& result, double /*seconds*/) {
+    watch.done = [&](std::size_t k, const std::string& result, double seconds) {
       ledger_.add(units_[k].key, driver::parse_json(result));
+      durations.add(units_[k].key, seconds);
       if (options_.report) {
         options_.report(static_cast<double>(++done) / static_cast<double>(open), static_cast<int>(known));
       }
     };
-    if (options_.workers->run(tasks, watch).stopped) {
+    const bool is_stopped = options_.workers->run(tasks, watch).stopped;
+    if (options_.workers->is_first() && !options_.durations.empty()) {
+      write_text_atomically(options_.durations, durations.text("task"));
+    }
+    if (is_stopped) {
       throw Stopped();
     }
   }

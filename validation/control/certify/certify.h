@@ -20,6 +20,7 @@ struct Judged {
 struct CertifyOptions {
   std::string certificate;           ///< path that will be written: files are named relative to its folder
   std::string progress;              ///< path of the ledger
+  std::string durations;             ///< file of how long runs took (work/durations.h): read and written
   std::string version;               ///< of the program
   work::Workers* workers = nullptr;  ///< each run is one of their tasks
   const StopFlag* stop = nullptr;    ///< raised: Stopped is thrown, and what is done stays in the ledger

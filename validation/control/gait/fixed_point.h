@@ -5,14 +5,17 @@
 #include <functional>
 #include <optional>
 
+#include "validation/control/gait/shared_runs.h"
+
 namespace plumbline::validation {
 
 /// u -> P(u); nothing where the map is not defined (the robot fell). Called on several threads at once.
 using Map = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
 
 /// dP/du by central differences, column by column, with `steps` (> 0); nothing when a point is not defined.
+/// Each point of the map is one of the runners' runs.
 std::optional<Eigen::MatrixXd> central_differences(const Map& map, const Eigen::VectorXd& at,
-                                                   const Eigen::VectorXd& steps, int threads);
+                                                   const Eigen::VectorXd& steps, const Runners& runners);
 
 struct FixedPoint {
   bool found = false;
@@ -28,7 +31,7 @@ struct FixedPoint {
 /// steps everywhere or `most` rounds have been made. Works for unstable fixed points too. `found`: the
 /// tolerance was reached and the slope is known there.
 FixedPoint find_fixed_point(const Map& map, const Eigen::VectorXd& guess, const Eigen::VectorXd& steps,
-                            double tolerance, int most, int threads);
+                            double tolerance, int most, const Runners& runners);
 
 /// Largest |eigenvalue|.
 double growth_of(const Eigen::MatrixXd& slope);

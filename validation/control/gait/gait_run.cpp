@@ -1,11 +1,12 @@
 #include "validation/control/gait/gait_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <thread>
+
+#include "validation/control/gait/gait_bytes.h"
+#include "validation/control/gait/shared_runs.h"
 
 namespace plumbline::validation {
 namespace {
@@ -124,16 +125,16 @@ GaitRun run_gait(const run::LoadedScenario& loaded, const GaitView& view, const 
 std::vector<GaitRun> run_gaits(const std::vector<run::LoadedScenario>& all, const GaitView& view,
                                const GaitOptions& options, const std::function<void(int)>& progress) {
   std::vector<GaitRun> runs(all.size());
-  std::atomic<int> done{0};
-  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  parallel_for(static_cast<int>(all.size()), threads, [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    runs[k] = run_gait(all[k], view, options);
-    const int count = ++done;
-    if (progress) {
-      progress(count);
-    }
-  });
+  const auto at = [](int run) { return static_cast<std::size_t>(run); };
+  SharedRuns shared{"run of a gait", static_cast<int>(all.size()), {}, {}, {}};
+  shared.work = [&](int run) { runs[at(run)] = run_gait(all[at(run)], view, options); };
+  shared.result = [&](int run) {
+    work::Bytes bytes;
+    add(runs[at(run)], bytes);
+    return bytes.all();
+  };
+  shared.take = [&](int run, work::BytesReader& reader) { runs[at(run)] = gait_run_from(reader); };
+  share_runs(shared, {options.workers, options.stop}, progress);
   return runs;
 }
 

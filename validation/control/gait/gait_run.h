@@ -10,6 +10,10 @@
 #include "validation/control/gait/measure.h"
 #include "validation/identify/predict/problem.h"
 
+namespace plumbline::work {
+class Workers;
+}
+
 namespace plumbline::validation {
 
 /// One cycle and what was measured on it.
@@ -43,14 +47,15 @@ struct GaitView {
 struct GaitOptions {
   long enough = 100;  ///< cycles that end the run; 0: the scenario's length alone
   run::RunOptions run;
-  const StopFlag* stop = nullptr;  ///< raised: Stopped is thrown
+  const StopFlag* stop = nullptr;    ///< raised: Stopped is thrown
+  work::Workers* workers = nullptr;  ///< of several ranks: run_gaits has each run done by one of them
 };
 
 /// Throws InputError as run_scenario does, and for channels that there are not.
 GaitRun run_gait(const run::LoadedScenario& loaded, const GaitView& view, const GaitOptions& options);
 
-/// One run for each of the loaded scenarios (another start, another controller, another robot), on all cores.
-/// `progress` is told how many are done.
+/// One run for each of the loaded scenarios (another start, another controller, another robot), on all cores
+/// or among the ranks; between ranks goes what gait_bytes.h says. `progress` is told how many are done.
 std::vector<GaitRun> run_gaits(const std::vector<run::LoadedScenario>& all, const GaitView& view,
                                const GaitOptions& options, const std::function<void(int)>& progress = {});
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 #include <stdexcept>
-#include <thread>
 
 #include "simulator/model/plain_number.h"
 #include "simulator/run/ends.h"
@@ -370,22 +369,22 @@ Orbit find_orbit(const run::LoadedScenario& loaded, const PoincareSection& secti
   }
   const Eigen::VectorXd steps = steps_of(points, map.positions(), memories);
   const Eigen::VectorXd guess = points.rowwise().mean();
-  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const Runners runners{options.workers, options.stop};
   map.use_history(history);
   map.use_memory(passages.back().memory);
   map.deviations_from(guess.head(map.states(guess)));
   const Map with = [&](const Eigen::VectorXd& u) { return map(u); };
-  const FixedPoint point = find_fixed_point(with, guess, steps, options.tolerance, options.rounds, threads);
+  const FixedPoint point = find_fixed_point(with, guess, steps, options.tolerance, options.rounds, runners);
   orbit.found = point.found;
   orbit.residual = point.residual;
   orbit.rounds = point.rounds;
   orbit.growth = point.growth;
   orbit.memory.assign(point.at.data() + map.states(point.at), point.at.data() + point.at.size());
-  const auto wide = central_differences(with, point.at, 2.0 * steps, threads);
+  const auto wide = central_differences(with, point.at, 2.0 * steps, runners);
   orbit.growth_twice_step = wide ? growth_of(*wide) : 0.0;
   const Eigen::VectorXd held = map.hold(point.at);
-  const auto without = central_differences(with, held, steps, threads);
-  const auto without_wide = central_differences(with, held, 2.0 * steps, threads);
+  const auto without = central_differences(with, held, steps, runners);
+  const auto without_wide = central_differences(with, held, 2.0 * steps, runners);
   orbit.growth_held = without ? growth_of(*without) : 0.0;
   orbit.growth_held_twice_step = without_wide ? growth_of(*without_wide) : 0.0;
   orbit.found = orbit.found && without && point.slope.size() > 0;

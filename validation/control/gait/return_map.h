@@ -45,8 +45,9 @@ struct OrbitOptions {
   long cycles = 40;  ///< made before the orbit is looked for
   run::SampledOptions run;
   const StopFlag* stop = nullptr;
-  int rounds = 4;          ///< of Newton's method at most
-  double tolerance = 0.5;  ///< residual, in steps
+  int rounds = 4;                    ///< of Newton's method at most
+  double tolerance = 0.5;            ///< residual, in steps
+  work::Workers* workers = nullptr;  ///< of several ranks: points of the return map are shared among them
 };
 
 /// The return map u -> P(u) with u = (plant state at the section, travel counted from the travel's memory;

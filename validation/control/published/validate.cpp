@@ -60,7 +60,9 @@ class Validator {
   }
 
  private:
-  GaitOptions gait_options(long enough) const { return {enough, options_.run, options_.stop}; }
+  GaitOptions gait_options(long enough) const {
+    return {enough, options_.run, options_.stop, options_.workers};
+  }
 
   void from_start() {
     progress_("from the scenario's start", 0.0);
@@ -129,6 +131,7 @@ class Validator {
     orbit.cycles = options_.enough;
     orbit.run = options_.run;
     orbit.stop = options_.stop;
+    orbit.workers = options_.workers;
     done_.orbit = find_orbit(published_.loaded, *published_.section, orbit);
   }
 

@@ -22,6 +22,7 @@ struct ValidateOptions {
   std::uint64_t seed = 1;
   run::RunOptions run;
   const StopFlag* stop = nullptr;
+  work::Workers* workers = nullptr;  ///< of several ranks: runs and points of the return map are shared
 };
 
 /// A published number or curve and its simulated counterpart.

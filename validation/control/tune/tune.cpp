@@ -61,7 +61,7 @@ GaitView view_of(const PublishedGait& published) {
   return view;
 }
 
-/// One generation: every set from every start, all on all cores.
+/// One generation: every set from every start, all on all cores or among the ranks.
 std::vector<TuneResult> try_all(const PublishedGait& published, const std::vector<std::vector<double>>& sets,
                                 const TuneOptions& options) {
   const GaitView view = view_of(published);
@@ -73,7 +73,8 @@ std::vector<TuneResult> try_all(const PublishedGait& published, const std::vecto
       all.push_back(std::move(one));
     }
   }
-  const std::vector<GaitRun> runs = run_gaits(all, view, {options.enough, options.run, options.stop});
+  const std::vector<GaitRun> runs =
+      run_gaits(all, view, {options.enough, options.run, options.stop, options.workers});
   const std::vector<PublishedQuantity> quantities = quantities_of_a_cycle(published);
   std::vector<TuneResult> results;
   for (std::size_t s = 0; s < sets.size(); ++s) {

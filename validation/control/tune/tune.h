@@ -40,6 +40,7 @@ struct TuneOptions {
   std::uint64_t seed = 1;
   run::RunOptions run;
   const StopFlag* stop = nullptr;
+  work::Workers* workers = nullptr;  ///< of several ranks: the runs of a generation are shared among them
 };
 
 struct TuneResult {

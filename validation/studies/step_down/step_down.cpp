@@ -3,10 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <thread>
 
+#include "validation/control/gait/shared_runs.h"
 #include "validation/studies/step_down/contact_intensity.h"
 
 namespace plumbline::validation {
@@ -95,6 +94,36 @@ class StepDownWatch {
   double force_ = 0.0, then_ = 0.0;
 };
 
+std::string bytes_of(const StepDownRun& run) {
+  work::Bytes bytes;
+  bytes.add(static_cast<double>(run.outcome)).add(run.end).add(run.lowest_torso).add(run.highest_torso);
+  for (const Touchdown& one : run.touchdowns) {
+    bytes.add(one.time).add(one.lower ? 1.0 : 0.0).add(one.force_impulse).add(one.speed);
+    bytes.add(one.impulse.x()).add(one.impulse.y()).add(one.impulse.z());
+  }
+  return bytes.all();
+}
+
+StepDownRun run_from(work::BytesReader& reader) {
+  StepDownRun run;
+  run.outcome = static_cast<StepDownRun::Outcome>(static_cast<int>(reader.number()));
+  run.end = reader.text();
+  run.lowest_torso = reader.number();
+  run.highest_torso = reader.number();
+  while (!reader.at_end()) {
+    Touchdown one;
+    one.time = reader.number();
+    one.lower = reader.number() != 0.0;
+    one.force_impulse = reader.number();
+    one.speed = reader.number();
+    for (double& axis : one.impulse) {
+      axis = reader.number();
+    }
+    run.touchdowns.push_back(one);
+  }
+  return run;
+}
+
 }  // namespace
 
 const Touchdown* StepDownRun::behind_edge(int n) const {
@@ -153,16 +182,19 @@ std::vector<StepDownShare> step_down_all(const StepDownTest& test, const StepDow
     }
   }
   const std::size_t all = cells.size() * starts.size();
-  std::atomic<std::size_t> done{0};
-  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  parallel_for(static_cast<int>(all), threads, [&](int job) {
-    const std::size_t cell = static_cast<std::size_t>(job) / starts.size();
-    const std::size_t start = static_cast<std::size_t>(job) % starts.size();
-    run::LoadedScenario scenario = starts[start];
-    scenario.controller = test.controllers[cell / test.heights.size()].setup;
-    cells[cell].runs[start] = step_down(test, scenario, cells[cell].height, options.stop);
-    progress(static_cast<double>(++done) / static_cast<double>(all));
-  });
+  const auto cell_of = [&](int run) { return static_cast<std::size_t>(run) / starts.size(); };
+  const auto start_of = [&](int run) { return static_cast<std::size_t>(run) % starts.size(); };
+  const auto result_of = [&](int run) -> StepDownRun& { return cells[cell_of(run)].runs[start_of(run)]; };
+  SharedRuns shared{"step down", static_cast<int>(all), {}, {}, {}};
+  shared.work = [&](int run) {
+    run::LoadedScenario scenario = starts[start_of(run)];
+    scenario.controller = test.controllers[cell_of(run) / test.heights.size()].setup;
+    result_of(run) = step_down(test, scenario, cells[cell_of(run)].height, options.stop);
+  };
+  shared.result = [&](int run) { return bytes_of(result_of(run)); };
+  shared.take = [&](int run, work::BytesReader& reader) { result_of(run) = run_from(reader); };
+  share_runs(shared, {options.workers, options.stop},
+             [&](int done) { progress(static_cast<double>(done) / static_cast<double>(all)); });
   return cells;
 }
 

@@ -75,8 +75,10 @@ struct StepDownOptions {
   int starts = 1;  ///< 1: the scenario's own; more: drawn from its ranges
   std::uint64_t seed = 1;
   const StopFlag* stop = nullptr;
+  work::Workers* workers = nullptr;  ///< of several ranks: each run by one of them
 };
-/// All controllers at all heights, on all cores. Progress is told how many runs of how many are done.
+/// All controllers at all heights, on all cores or among the ranks. Progress is told how many runs of how
+/// many are done.
 std::vector<StepDownShare> step_down_all(const StepDownTest& test, const StepDownOptions& options,
                                          const std::function<void(double)>& progress);
 
