@@ -120,7 +120,7 @@ lint() {
 
 # Damaged inputs for every reader: as many on every machine, so that the same commit has the same answer.
 fuzz() {
-  within "$2" "build/tests/fuzz/fuzz_readers $2 $1 '' 3000" "$build/tests/fuzz/fuzz_readers" "$2" "$1" '' 3000
+  within "$2" "build/tests/fuzz/fuzz_readers 3600 $1 '' 500" "$build/tests/fuzz/fuzz_readers" 3600 "$1" '' 500
 }
 
 gauntlet() {
@@ -128,9 +128,13 @@ gauntlet() {
     echo "slices: the recordings are not part of the repository; PLUMBLINE_GAUNTLET_DATA names no folder with them"
     exit "$did_not_run"
   fi
+  mkdir -p "$build/slices"
   within "$2" "./plumb gauntlet --data \$PLUMBLINE_GAUNTLET_DATA --only '$1'" \
     env PLUMBLINE="$build/validation/cli/plumbline" PYTHONPATH="$build/python" /usr/bin/python3 \
-    "$root/scripts/gauntlet/gauntlet.py" --data "$PLUMBLINE_GAUNTLET_DATA" --only "$1" --out "$build/slices/gauntlet"
+    "$root/scripts/gauntlet/gauntlet.py" --data "$PLUMBLINE_GAUNTLET_DATA" --only "$1" --out "$build/slices/gauntlet" |
+    tee "$build/slices/gauntlet-$1"
+  # A machine whose folder is not there is left out by the gauntlet itself, without a row.
+  if ! grep -q "^| .*$1" "$build/slices/gauntlet-$1"; then exit "$did_not_run"; fi
 }
 
 case ${1:-} in
