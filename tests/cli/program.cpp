@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <pty.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -122,8 +124,28 @@ void Process::wait_until_ready() const {
 
 void Process::interrupt() const { ::kill(pid_, SIGINT); }
 
+void Process::kill() const { ::kill(pid_, SIGKILL); }
+
+double Process::processor_seconds() const {
+  clockid_t clock{};
+  timespec used{};
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &used) != 0) {
+    return last_processor_seconds_;  // it has ended
+  }
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 bool Process::is_running() {
-  ended_ = ended_ || ::waitpid(pid_, &raw_status_, WNOHANG) == pid_;
+  if (!ended_) {
+    rusage used{};
+    ended_ = ::wait4(pid_, &raw_status_, WNOHANG, &used) == pid_;
+    if (ended_) {
+      for (const timeval& part : {used.ru_utime, used.ru_stime}) {
+        last_processor_seconds_ +=
+            static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
+      }
+    }
+  }
   return !ended_;
 }
 

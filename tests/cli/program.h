@@ -30,6 +30,9 @@ class Process {
   /// Waits until the terminal has shown this text. False when the program ends before, or after a minute.
   bool wait_for_shown(const std::string& text);
   void interrupt() const;  ///< as Ctrl-C does
+  void kill() const;       ///< SIGKILL: it can do nothing about it
+  /// Seconds of processor that it has used, all its threads; what else runs on the machine does not count.
+  double processor_seconds() const;
   bool is_running();
   Outcome wait();
 
@@ -42,6 +45,7 @@ class Process {
   pid_t pid_ = -1;
   bool ended_ = false;
   int raw_status_ = 0;
+  double last_processor_seconds_ = 0.0;
 };
 
 Outcome run(const std::vector<std::string>& arguments, const std::string& working_folder);

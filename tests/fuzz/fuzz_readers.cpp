@@ -1,6 +1,6 @@
-// fuzz_readers SECONDS SEED [TARGET]: damages good inputs of every reader until the time is over. What a
-// reader does not handle is kept in tests/corpus/TARGET; when a reader crashes or hangs, the input is the
-// last one below the folder that the program names first.
+// fuzz_readers SECONDS SEED [TARGET [INPUTS]]: damages good inputs of every reader until the time is over, or
+// until each has had so many. What a reader does not handle is kept in tests/corpus/TARGET; when a reader
+// crashes or hangs, the input is the last one below the folder that the program names first.
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include "tests/fuzz/mutator.h"
 #include "tests/fuzz/reader_targets.h"
@@ -33,7 +34,7 @@ void keep(const ReaderTarget& target, std::uint64_t seed, long number, const std
 }
 
 /// Tries inputs for a while; returns how many went wrong.
-int fuzz(const ReaderTarget& target, std::uint64_t seed, double seconds) {
+int fuzz(const ReaderTarget& target, std::uint64_t seed, double seconds, long most) {
   Mutator mutator(seed);
   const auto start = std::chrono::steady_clock::now();
   const auto left = [&] {
@@ -41,7 +42,7 @@ int fuzz(const ReaderTarget& target, std::uint64_t seed, double seconds) {
   };
   int wrong = 0;
   long number = 0;
-  while (left() > 0.0) {
+  while (number < most && left() > 0.0) {
     const std::string text =
         mutator.mutate(target.seeds[static_cast<std::size_t>(number) % target.seeds.size()]);
     end_after(20);  // a reader that hangs ends the program, the input stays
@@ -62,12 +63,13 @@ int fuzz(const ReaderTarget& target, std::uint64_t seed, double seconds) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::cerr << "usage: fuzz_readers SECONDS SEED [TARGET]\n";
+    std::cerr << "usage: fuzz_readers SECONDS SEED [TARGET [INPUTS]]\n";
     return 2;
   }
   const double seconds = std::atof(argv[1]);
   const std::uint64_t seed = std::strtoull(argv[2], nullptr, 10);
   const std::string only = argc > 3 ? argv[3] : "";
+  const long most = argc > 4 ? std::atol(argv[4]) : std::numeric_limits<long>::max();
   const std::string folder =
       (std::filesystem::temp_directory_path() / ("plumbline-fuzz-" + std::to_string(getpid()))).string();
   std::filesystem::create_directories(folder);
@@ -76,7 +78,8 @@ int main(int argc, char** argv) {
   int wrong = 0;
   for (const ReaderTarget& target : targets) {
     if (only.empty() || only == target.name) {
-      wrong += fuzz(target, seed, only.empty() ? seconds / static_cast<double>(targets.size()) : seconds);
+      wrong +=
+          fuzz(target, seed, only.empty() ? seconds / static_cast<double>(targets.size()) : seconds, most);
     }
   }
   std::filesystem::remove_all(folder);

@@ -88,7 +88,8 @@ TEST(ControllerSetup, EveryMistakeIsOneLine) {
               HasSubstr("no such port of controller hold_position"));
   EXPECT_THAT(error_of(with(kHold, "unit: N m/rad", "unit: m")), HasSubstr("a unit like \"N m/rad\""));
   EXPECT_THAT(error_of(with(kHold, "value: 2, unit: N m/rad", "value: -2, unit: N m/rad")), HasSubstr("kp"));
-  EXPECT_THAT(error_of(with(kHold, "  position: mLA\n", "")), HasSubstr("inputs: found nothing, expected a map"));
+  EXPECT_THAT(error_of(with(kHold, "  position: mLA\n", "")),
+              HasSubstr("inputs: found nothing, expected a map"));
   EXPECT_THAT(error_of(with(kHold, "position: mLA", "position: mLX")),
               AllOf(HasSubstr("inputs: position: found \"mLX\""), HasSubstr("did you mean")));
   EXPECT_THAT(error_of(with(kHold, "torque: mLA", "torque: knee")), HasSubstr("expected a motor of"));

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -21,6 +19,9 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// One line on standard error. fmt would throw where that is a file on a full disk.
+void complain(const std::string& why) { std::fputs(("plumbline: " + one_line(why) + "\n").c_str(), stderr); }
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -37,9 +38,8 @@ std::vector<std::string> command_words(int argc, char** argv) {
   std::vector<std::string> words{"plumbline"};
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
   if (words.size() > 1 && std::find(kStudies.begin(), kStudies.end(), words[1]) != kStudies.end()) {
-    fmt::print(stderr,
-               "plumbline: `{0}` is called `study {0}` now; the old name goes with the next version\n",
-               words[1]);
+    complain("`" + words[1] + "` is called `study " + words[1] +
+             "` now; the old name goes with the next version");
     words.insert(words.begin() + 1, "study");
   }
   return words;
@@ -113,7 +113,7 @@ void parse(CLI::App& app, const std::vector<std::string>& words) {
 
 /// Other ranks than the first are silent: they leave their reasons to it.
 int ended(int status, const std::string& why) {
-  fmt::print(stderr, "plumbline: {}\n", one_line(why));
+  complain(why);
   plumbline::cli::workers().fail(one_line(why));
   return status;
 }
@@ -154,8 +154,12 @@ int main(int argc, char** argv) {
     const std::vector<std::string> words = command_words(argc, argv);
     status = plumbline::cli::is_left_out(words) ? 0 : run_command(words);
   } catch (const plumbline::work::Refused& error) {
-    fmt::print(stderr, "plumbline: {}\n", error.what());
+    complain(error.what());
   }
-  std::fflush(stdout);
+  // What was printed may have been meant for a file, and that disk be full.
+  if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && status == 0) {
+    complain("found no room for what was to be printed, expected a standard output that can be written");
+    status = 1;
+  }
   return plumbline::cli::workers().finish(status);
 }
