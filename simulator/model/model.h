@@ -53,6 +53,8 @@ struct Joint {
   double damping = 0.0, friction = 0.0;
   double armature = 0.0;  ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
   bool floats = false;    ///< one of the six of a free joint (joint_chain.h): nothing drives it
+  std::string mimics{};   ///< URDF's <mimic>: position = follows * position of that joint; "": of none
+  double follows = 0.0;
 };
 
 /// A sphere of the skeleton file that may touch the ground, on a body (index), its centre in the body's

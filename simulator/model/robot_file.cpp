@@ -1,5 +1,6 @@
 #include "simulator/model/robot_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -57,6 +58,30 @@ void read_floating_base(const YamlNode& node, Model& model) {
   check_joint_names(model.skeleton);
 }
 
+/// Joints that mimic another one in the skeleton, as ties, where the model states none of them itself.
+void tie_mimics(const YamlNode& root, Model& model) {
+  for (const Joint& joint : model.skeleton.joints) {
+    const bool stated = std::any_of(model.ratios.begin(), model.ratios.end(),
+                                    [&](const Ratio& ratio) { return ratio.motor == joint.name; });
+    if (joint.mimics.empty() || stated) {
+      continue;
+    }
+    const auto master =
+        std::find_if(model.coordinates.begin(), model.coordinates.end(), [&](const Coordinate& coordinate) {
+          return coordinate.terms.size() == 1 && coordinate.terms.front().of == joint.mimics;
+        });
+    if (master == model.coordinates.end()) {
+      root.refuse("no coordinate of joint " + quote(joint.mimics) + " alone, which " + quote(joint.name) +
+                      " mimics in the skeleton",
+                  "such a coordinate, or the joint tied under `ratios`");
+    }
+    Quantity ratio;
+    ratio.value = joint.follows / master->terms.front().factor;
+    ratio.source = "<mimic> of the skeleton";
+    model.ratios.push_back({joint.name, joint.name, {{master->name, ratio.value}}, {ratio}});
+  }
+}
+
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
   root.allow_keys({"plumbline", "robot", "skeleton", "floating_base", "gravity", "masses", "coordinates",
                    "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "loops", "effects",
@@ -73,6 +98,7 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   read_section(root, "motors", read_motors, model);
   check_names(root, model);
   read_section(root, "ratios", read_ratios, model);
+  tie_mimics(root, model);
   check_ratios(root, model);
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "feet", read_feet, model);

@@ -313,6 +313,31 @@ LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   return loose;
 }
 
+/// A joint that mimics another one gets its zero where the offset puts it, so that a factor is left.
+void tie_mimics(const SkeletonXml& xml, Skeleton& skeleton) {
+  for (Joint& joint : skeleton.joints) {
+    const SkeletonXml::Mimic* mimic = xml.mimic(joint.name);
+    if (mimic == nullptr || joint.type == JointType::fixed) {
+      continue;
+    }
+    const auto master = std::find_if(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& one) {
+      return one.name == mimic->joint && one.type != JointType::fixed && &one != &joint;
+    });
+    if (master == skeleton.joints.end()) {
+      xml.refuse({joint.name + " mimic", xml.line_of_joint(joint.name)}, "\"" + mimic->joint + "\"",
+                 "the name of another moving joint");
+    }
+    const Eigen::Vector3d axis = joint.axis.normalized();
+    if (joint.type == JointType::revolute) {
+      joint.X_PJ.rotate(Eigen::AngleAxisd(mimic->offset, axis));
+    } else {
+      joint.X_PJ.translate(mimic->offset * axis);
+    }
+    joint.mimics = mimic->joint;
+    joint.follows = mimic->multiplier;
+  }
+}
+
 Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
   ignition::math::Pose3d pose = loaded.model.RawPose();
   if (loaded.world != nullptr) {
@@ -332,6 +357,7 @@ Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
     skeleton.gravity = to_eigen(loaded.world->Gravity());
   }
   TreeBuilder(xml, std::move(links), std::move(joints), to_eigen(pose)).build(skeleton);
+  tie_mimics(xml, skeleton);
   check_joint_names(skeleton);
   return skeleton;
 }

@@ -276,10 +276,6 @@ void SkeletonXml::check_joint(const XMLElement& joint, const XmlPart& part) cons
 }
 
 void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part) const {
-  if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
-    refuse({part.name, mimic->GetLineNum()}, "a mimic joint",
-           "no mimic; tie it under `ratios` of the model file");
-  }
   for (const char* end : {"parent", "child"}) {
     const XMLElement* element = joint.FirstChildElement(end);
     const std::string link = element == nullptr ? "" : attribute(*element, "link");
@@ -296,6 +292,19 @@ void SkeletonXml::check_urdf_joint(const XMLElement& joint, const XmlPart& part)
 
 void SkeletonXml::note_urdf_joint(const XMLElement& joint, const XmlPart& part) {
   const std::string type = attribute(joint, "type");
+  if (const XMLElement* stated = joint.FirstChildElement("mimic")) {
+    Mimic mimic;
+    mimic.joint = attribute(*stated, "joint");
+    for (const auto& [key, value] : {std::pair<const char*, double*>{"multiplier", &mimic.multiplier},
+                                     std::pair<const char*, double*>{"offset", &mimic.offset}}) {
+      if (stated->Attribute(key) != nullptr &&
+          stated->QueryDoubleAttribute(key, value) != tinyxml2::XML_SUCCESS) {
+        refuse({part.name + " mimic " + key, stated->GetLineNum()}, "\"" + attribute(*stated, key) + "\"",
+               "a number");
+      }
+    }
+    mimics_[part.name] = mimic;
+  }
   if (type == "floating") {
     floating_.insert(part.name);
   }
@@ -318,6 +327,11 @@ UrdfJoint SkeletonXml::urdf_joint(const std::string& name) const {
   return floating_.count(name) != 0 ? UrdfJoint::floating
          : planar_.count(name) != 0 ? UrdfJoint::planar
                                     : UrdfJoint::single;
+}
+
+const SkeletonXml::Mimic* SkeletonXml::mimic(const std::string& name) const {
+  const auto found = mimics_.find(name);
+  return found == mimics_.end() ? nullptr : &found->second;
 }
 
 Eigen::Vector3d SkeletonXml::planar_normal(const std::string& name) const { return planar_.at(name); }

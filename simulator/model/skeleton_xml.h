@@ -44,6 +44,12 @@ class SkeletonXml {
   /// What a URDF says of a joint; a planar one's normal is in `normal`, in the joint's frame.
   UrdfJoint urdf_joint(const std::string& name) const;
   Eigen::Vector3d planar_normal(const std::string& name) const;
+  /// URDF's <mimic> of a joint: its position is multiplier * position of `joint` + offset; nullptr: none.
+  struct Mimic {
+    std::string joint;
+    double multiplier = 1.0, offset = 0.0;
+  };
+  const Mimic* mimic(const std::string& name) const;
   /// The part that a message of libsdformat speaks of; an empty name when it names none.
   XmlPart part_in(const std::string& message) const;
 
@@ -89,6 +95,7 @@ class SkeletonXml {
   std::set<std::string> floating_;
   std::map<std::string, std::string> renamed_;     ///< joints called as a link: the file's names
   std::map<std::string, Eigen::Vector3d> planar_;  ///< with their normals
+  std::map<std::string, Mimic> mimics_;
 };
 
 }  // namespace plumbline::model

@@ -60,6 +60,27 @@ TEST_F(NewModel, IsReadByTheOtherCommands) {
   EXPECT_GT(read_json("compared.json")["held_out"].get<double>(), 0.0);
 }
 
+// An arm with a gripper whose second finger mimics the first, and a log of the arm alone.
+TEST_F(NewModel, TakesAGripperThatTheLogDoesNotShow) {
+  std::string arm = read("arm.urdf");
+  const std::string finger =
+      "\"><inertial><mass value=\"0.1\"/><inertia ixx=\"1e-5\" iyy=\"1e-5\" izz=\"1e-5\" ixy=\"0\" ixz=\"0\" "
+      "iyz=\"0\"/></inertial></link>\n<joint type=\"prismatic\" name=\"slide_";
+  const std::string on = "\"><parent link=\"bar\"/><child link=\"";
+  const std::string limit =
+      "\"/><origin xyz=\"0 0 -0.5\"/><limit lower=\"0\" upper=\"0.04\" effort=\"9\" velocity=\"9\"/><axis "
+      "xyz=\"0 ";
+  arm.insert(arm.find("</robot>"), "<link name=\"left" + finger + "left" + on + "left" + limit +
+                                       "1 0\"/></joint>\n<link name=\"right" + finger + "right" + on +
+                                       "right" + limit + "-1 0\"/><mimic joint=\"slide_left\"/></joint>");
+  write("gripper.urdf", arm);
+  const std::string out =
+      succeed({"new-model", "gripper.urdf", "--from", "log.csv", "--out", "model.yaml"}).out;
+  EXPECT_THAT(out, HasSubstr("Joint slide_left: the log has no column of it"));
+  EXPECT_THAT(read("log_train/trial.yaml"), HasSubstr("locked:\n  slide_left: {value: 0, unit: m}"));
+  succeed({"compare", "log_train", "log_held_out"});
+}
+
 TEST_F(NewModel, NeedsNoLog) {
   succeed({"new-model", "arm.urdf", "--out", "model.yaml"});
   EXPECT_THAT(read("model.yaml"), HasSubstr("command_unit: N m"));

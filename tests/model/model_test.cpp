@@ -9,6 +9,7 @@
 #include <string>
 
 #include "simulator/model/known_effects.h"
+#include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/units.h"
@@ -163,6 +164,38 @@ ratios:
   EXPECT_EQ(model.ratios[0].to[0].of, "shoulder");
   EXPECT_TRUE(model.places(Place::ratio).empty());
   EXPECT_EQ(model.skeleton.gravity, Eigen::Vector3d(0, 0, -9.80665));
+}
+
+/// Two carts on one rail, the second of which mimics the first with a factor of -0.5 and an offset of 0.2 m.
+std::string mimic_urdf() {
+  const auto cart = [](const std::string& name, double mass) {
+    return "<link name=\"" + name + "\"><inertial><mass value=\"" + std::to_string(mass) +
+           "\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n";
+  };
+  const auto joint = [](const std::string& name, const std::string& more) {
+    return "<joint name=\"to_" + name + "\" type=\"prismatic\"><parent link=\"base\"/><child link=\"" + name +
+           "\"/><axis xyz=\"1 0 0\"/><limit lower=\"-9\" upper=\"9\" effort=\"9\" velocity=\"9\"/>" + more +
+           "</joint>\n";
+  };
+  return "<robot name=\"carts\"><link name=\"base\"/>" + cart("a", 3.0) + cart("b", 2.0) + joint("a", "") +
+         joint("b", "<mimic joint=\"to_a\" multiplier=\"-0.5\" offset=\"0.2\"/>") + "</robot>";
+}
+
+TEST(ModelTest, AJointThatMimicsAnotherGoesWithIt) {
+  const test::TemporaryFolder folder;
+  folder.write("carts.urdf", mimic_urdf());
+  const std::string head = "plumbline: model/1\nrobot: r\nskeleton: carts.urdf\n";
+  const std::string path = folder.write("model.yaml", head + "coordinates:\n  x: {of: {to_a: 2}}\n");
+  const Model model = read_model(path, test::test_catalogue());
+  ASSERT_EQ(model.ratios.size(), 1U);
+  EXPECT_EQ(model.ratios[0].motor, "to_b");
+  EXPECT_DOUBLE_EQ(model.ratios[0].to[0].factor, -0.25) << "x is twice the joint";
+  EXPECT_NEAR(model.skeleton.joints[1].X_PJ.translation().x(), 0.2, 1e-12) << "the offset moves its zero";
+  const Plant plant(model);
+  EXPECT_EQ(plant.positions(), 1);
+  const std::string none = folder.write("none.yaml", head + "coordinates:\n  y: {of: {to_b: 1}}\n");
+  EXPECT_THAT(test::refusal([&] { read_model(none, test::test_catalogue()); }),
+              testing::HasSubstr("no coordinate of joint \"to_a\" alone, which \"to_b\" mimics"));
 }
 
 TEST(ModelTest, EveryUnitOfTheCatalogueCanBeRead) {

@@ -138,8 +138,8 @@ void match(Plan& plan, const NewModelWish& wish) {
 
 /// Every motor has its command and every joint its position.
 bool is_complete(const Plan& plan) {
-  return std::all_of(plan.joints.begin(), plan.joints.end(), [](const PlannedJoint& one) {
-    return one.columns.position >= 0 && one.columns.command >= 0;
+  return std::all_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& one) {
+    return plan.is_held(one) || (one.columns.position >= 0 && one.columns.command >= 0);
   });
 }
 
@@ -244,6 +244,13 @@ void describe(const Plan& plan, NewModel& result) {
   for (std::size_t c = 0; c < used.size(); ++c) {
     if (!used[c] && static_cast<int>(c) != plan.look->time) {
       result.unused.push_back(plan.look->columns[c].name);
+    }
+  }
+  for (const PlannedJoint& one : plan.joints) {
+    if (plan.is_held(one)) {
+      result.remarks.push_back(
+          "Joint " + one.joint->name +
+          ": the log has no column of it, and the trials hold it still at zero (`locked`).");
     }
   }
   result.remarks.insert(result.remarks.end(), plan.skeleton->left_out.begin(), plan.skeleton->left_out.end());

@@ -324,10 +324,28 @@ void write_channels(const Plan& plan, ColumnOf which, const char* section, std::
                                [&](const PlannedJoint& one) { return one.columns.*which >= 0; });
   out << (any ? "" : "# ") << section << ":\n";
   for (const PlannedJoint& one : plan.joints) {
+    if (plan.is_held(one)) {
+      continue;
+    }
     const bool angular = one.columns.angular;
     const bool command = which == &JointColumns::command;
     out << channel(plan, command ? one.motor : one.coordinate, one.columns.*which,
                    command ? command_unit_at(plan.command_unit, angular) : model::position_unit(angular));
+  }
+}
+
+void write_locked(const Plan& plan, std::ostringstream& out) {
+  const bool any = std::any_of(plan.joints.begin(), plan.joints.end(),
+                               [&](const PlannedJoint& one) { return plan.is_held(one); });
+  if (!any) {
+    return;
+  }
+  out << "# The log has no column of these: they are taken as held where they are at zero.\nlocked:\n";
+  for (const PlannedJoint& one : plan.joints) {
+    if (plan.is_held(one)) {
+      out << "  " << one.coordinate << ": {value: 0, unit: " << model::position_unit(one.columns.angular)
+          << "}\n";
+    }
   }
 }
 
@@ -351,7 +369,8 @@ std::vector<PlannedJoint> plan_joints(const Skeleton& skeleton) {
   std::vector<PlannedJoint> planned;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
-    if (joint.type == JointType::fixed || joint.floats) {  // nothing drives a floating base
+    // Nothing drives a floating base, and a joint that mimics another one goes with it.
+    if (joint.type == JointType::fixed || joint.floats || !joint.mimics.empty()) {
       continue;
     }
     PlannedJoint one;
@@ -367,6 +386,13 @@ std::vector<PlannedJoint> plan_joints(const Skeleton& skeleton) {
     planned.push_back(std::move(one));
   }
   return planned;
+}
+
+bool Plan::is_held(const PlannedJoint& one) const {
+  const auto silent = [](const PlannedJoint& joint) {
+    return joint.columns.position < 0 && joint.columns.command < 0;
+  };
+  return silent(one) && !std::all_of(joints.begin(), joints.end(), silent);
 }
 
 std::string model_text(const Plan& plan) { return ModelWriter(plan).text(); }
@@ -390,6 +416,7 @@ std::string trial_text(const Plan& plan, validation::Role role, double from, dou
   }
   write_channels(plan, &JointColumns::command, "commands", out);
   write_channels(plan, &JointColumns::position, "measured", out);
+  write_locked(plan, out);
   return out.str();
 }
 

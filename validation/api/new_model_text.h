@@ -32,6 +32,9 @@ struct Plan {
   std::string command_unit;                   ///< "A" or "N m"
   const validation::LogLook* look = nullptr;  ///< nullptr: no log
   std::vector<PlannedJoint> joints;
+
+  /// Has the log nothing of this joint, and something of others? Then the trials hold it still.
+  bool is_held(const PlannedJoint& one) const;
 };
 
 /// Names for coordinates and motors that a model may give and no other has; inertias to begin with.
