@@ -1,7 +1,5 @@
 // Sensors at points of links, and foreign robots' files as they are, beside MuJoCo.
 #include <gtest/gtest.h>
-#include <mujoco/mujoco.h>
-#include <tinyxml2.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +10,7 @@
 #include "simulator/model/robot_file.h"
 #include "simulator/model/rotation_vector.h"
 #include "simulator/trace/number_text.h"
-#include "tests/model/floating_states.h"
+#include "tests/model/mujoco_peer.h"
 #include "tests/trace/temporary_folder.h"
 
 namespace plumbline::model {
@@ -67,72 +65,6 @@ sensors:
   skin_acc: {accelerometer: calf, at: {value: [0.02, 0, -0.2], unit: m}, noise: {value: 0.1, unit: m/s^2}, assumed: test}
 )";
 
-struct Mujoco {
-  explicit Mujoco(const std::string& path) {
-    char error[500] = "";
-    m = mj_loadXML(path.c_str(), nullptr, error, sizeof error);
-    if (m == nullptr) {
-      throw std::runtime_error(error);
-    }
-    // Contacts, limits, dry friction and equalities are soft constraints there, and others here.
-    m->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_EQUALITY;
-    m->opt.enableflags |= mjENBL_ENERGY;
-    d = mj_makeData(m);
-  }
-  ~Mujoco() {
-    mj_deleteData(d);
-    mj_deleteModel(m);
-  }
-  Mujoco(const Mujoco&) = delete;
-  Mujoco& operator=(const Mujoco&) = delete;
-  mjModel* m = nullptr;
-  mjData* d = nullptr;
-};
-
-/// Ours to MuJoCo's, joint by joint: where a chart begins, three angles make a quaternion.
-void set_state(const Mujoco& mujoco, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  int next = 0;
-  for (int j = 0; j < mujoco.m->njnt; ++j) {
-    double* qpos = mujoco.d->qpos + mujoco.m->jnt_qposadr[j];
-    double* qvel = mujoco.d->qvel + mujoco.m->jnt_dofadr[j];
-    const int type = mujoco.m->jnt_type[j];
-    for (int i = 0; type == mjJNT_FREE && i < 3; ++i) {
-      *qpos++ = q[next];
-      *qvel++ = v[next++];
-    }
-    if (type != mjJNT_FREE && type != mjJNT_BALL) {
-      *qpos = q[next];
-      *qvel = v[next++];
-      continue;
-    }
-    const Vector3d angles = q.segment<3>(next), rates = v.segment<3>(next);
-    const Eigen::Quaterniond turn(test::rotation_of(angles));
-    const Vector3d w = test::rates_map(angles) * rates;
-    const double quaternion[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
-    std::copy(quaternion, quaternion + 4, qpos);
-    std::copy(w.data(), w.data() + 3, qvel);
-    next += 3;
-  }
-}
-
-/// Our accelerations as MuJoCo gives them.
-Eigen::VectorXd accelerations(const Mujoco& mujoco, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              Eigen::VectorXd a) {
-  int next = 0;
-  for (int j = 0; j < mujoco.m->njnt; ++j) {
-    const int type = mujoco.m->jnt_type[j];
-    next += type == mjJNT_FREE ? 3 : 0;
-    if (type == mjJNT_FREE || type == mjJNT_BALL) {
-      a.segment<3>(next) =
-          test::angular_acceleration(q.segment<3>(next), v.segment<3>(next), a.segment<3>(next).eval());
-      next += 3;
-    } else {
-      ++next;
-    }
-  }
-  return a;
-}
-
 class BesideMujoco : public testing::Test {
  protected:
   test::TemporaryFolder folder_;
@@ -142,7 +74,7 @@ TEST_F(BesideMujoco, SensorsReadTheSame) {
   const std::string file = folder_.write("arm.xml", kArm);
   const Model model = read_model(folder_.write("model.yaml", kSensors), known_effects());
   Plant plant(model, {});
-  const Mujoco mujoco(file);
+  const test::Mujoco mujoco(file);
   const int n = plant.positions();
   ASSERT_EQ(n, mujoco.m->nv);
   std::srand(8);
@@ -151,7 +83,7 @@ TEST_F(BesideMujoco, SensorsReadTheSame) {
     x << 1.3 * Eigen::VectorXd::Random(n), 3.0 * Eigen::VectorXd::Random(n);
     Eigen::VectorXd y(plant.sensors());
     plant.outputs(x.data(), y.data());
-    set_state(mujoco, x.head(n), x.tail(n));
+    test::set_state(mujoco, x.head(n), x.tail(n));
     mj_forward(mujoco.m, mujoco.d);
     const double* s = mujoco.d->sensordata;
     const auto reading = [&](const char* name) { return y.segment<3>(model.sensor_index(name)).eval(); };
@@ -164,23 +96,6 @@ TEST_F(BesideMujoco, SensorsReadTheSame) {
   }
 }
 
-using tinyxml2::XMLElement;
-
-/// A file without meshes, materials and pictures of the assets: MuJoCo needs them, masses and motion do not
-/// where each body states its <inertial>.
-void take_away_meshes(XMLElement& element) {
-  for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
-    XMLElement* const next = child->NextSiblingElement();
-    child->DeleteAttribute("material");
-    if (std::string(child->Name()) == "asset" || child->Attribute("mesh") != nullptr) {
-      element.DeleteChild(child);
-    } else {
-      take_away_meshes(*child);
-    }
-    child = next;
-  }
-}
-
 struct Worst {
   double mass = 0.0, energy = 0.0, acceleration = 0.0;
 };
@@ -190,7 +105,7 @@ struct Worst {
 Worst compare(const test::TemporaryFolder& folder, const std::string& file) {
   tinyxml2::XMLDocument document;
   EXPECT_EQ(document.LoadFile(file.c_str()), tinyxml2::XML_SUCCESS) << file;
-  take_away_meshes(*document.RootElement());
+  test::take_away_meshes(*document.RootElement());
   const std::string bare = folder.write("robot.xml", "");
   document.SaveFile(bare.c_str());
   const Skeleton skeleton = read_mjcf(bare);
@@ -208,7 +123,7 @@ Worst compare(const test::TemporaryFolder& folder, const std::string& file) {
                       model.effects.end());
   model.loops.clear();
   Plant plant(model, {});
-  const Mujoco mujoco(bare);
+  const test::Mujoco mujoco(bare);
   for (int j = 0; j < mujoco.m->njnt; ++j) {
     for (int i = 0; mujoco.m->jnt_type[j] == mjJNT_BALL && i < 3; ++i) {
       mujoco.m->dof_damping[mujoco.m->jnt_dofadr[j] + i] = 0.0;
@@ -226,9 +141,9 @@ Worst compare(const test::TemporaryFolder& folder, const std::string& file) {
     Eigen::VectorXd x(2 * n), rate(2 * n);
     x << 1.3 * Eigen::VectorXd::Random(n), 2.0 * Eigen::VectorXd::Random(n);
     plant.rate(x.data(), nullptr, rate.data());
-    set_state(mujoco, x.head(n), x.tail(n));
+    test::set_state(mujoco, x.head(n), x.tail(n));
     mj_forward(mujoco.m, mujoco.d);
-    const Eigen::VectorXd ours = accelerations(mujoco, x.head(n), x.tail(n), rate.tail(n));
+    const Eigen::VectorXd ours = test::accelerations(mujoco, x.head(n), x.tail(n), rate.tail(n));
     const Eigen::Map<const Eigen::VectorXd> theirs(mujoco.d->qacc, n);
     worst.acceleration = std::max(
         worst.acceleration, (ours - theirs).cwiseAbs().maxCoeff() / (1.0 + theirs.cwiseAbs().maxCoeff()));
