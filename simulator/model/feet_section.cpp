@@ -1,6 +1,7 @@
 // The model's feet: points, spheres and boxes of links.
 #include <algorithm>
 
+#include "simulator/model/frames_in_file.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/quantity.h"
@@ -19,14 +20,6 @@ double length_unit(const YamlNode& entry) {
     unit.refuse("unit " + quote(unit.text()), "a unit like " + quote("m"));
   }
   return to_si_factor(unit.text());
-}
-
-Vector3d three(const YamlNode& node, const std::string& expected) {
-  const std::vector<YamlNode> numbers = node.items();
-  if (numbers.size() != 3) {
-    node.refuse(std::to_string(numbers.size()) + " numbers", "three: " + expected);
-  }
-  return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
 }
 
 double above_zero(const YamlNode& node) {
@@ -63,6 +56,36 @@ void add_box(const YamlNode& box, double scale, const Foot& centre, Model& model
   }
 }
 
+Foot foot_of(const ContactSphere& sphere, const std::string& name) {
+  Foot foot;
+  foot.name = name;
+  foot.body = sphere.body;
+  foot.point = sphere.centre;
+  foot.radius = sphere.radius;
+  foot.source = sphere.shape.empty() ? "the skeleton's sphere " + sphere.name
+                                     : "an end of the skeleton's capsule " + sphere.shape;
+  return foot;
+}
+
+/// The two ends of a capsule, as feet of one group.
+void add_capsule(const YamlNode& node, const std::string& name, const std::string& group, Model& model) {
+  std::vector<std::string> names;
+  int ends = 0;
+  for (const ContactSphere& sphere : model.skeleton.spheres) {
+    if (!sphere.shape.empty() && sphere.shape == node.text()) {
+      Foot foot = foot_of(sphere, name + "_" + std::to_string(++ends));
+      foot.group = group.empty() ? name : group;
+      model.feet.push_back(std::move(foot));
+    } else if (!sphere.shape.empty() && (names.empty() || names.back() != sphere.shape)) {
+      names.push_back(sphere.shape);
+    }
+  }
+  if (ends == 0) {
+    node.refuse(quote(node.text()), "the name of a capsule of an MJCF skeleton that may touch the ground" +
+                                        nearest_names(node.text(), names));
+  }
+}
+
 const ContactSphere& sphere_of(const YamlNode& node, const Model& model) {
   std::vector<std::string> names;
   for (const ContactSphere& sphere : model.skeleton.spheres) {
@@ -73,16 +96,6 @@ const ContactSphere& sphere_of(const YamlNode& node, const Model& model) {
   }
   node.refuse(quote(node.text()), "the name of a sphere of an MJCF skeleton that may touch the ground" +
                                       nearest_names(node.text(), names));
-}
-
-Foot foot_of(const ContactSphere& sphere, const std::string& name) {
-  Foot foot;
-  foot.name = name;
-  foot.body = sphere.body;
-  foot.point = sphere.centre;
-  foot.radius = sphere.radius;
-  foot.source = "the skeleton's sphere " + sphere.name;
-  return foot;
 }
 
 void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
@@ -96,6 +109,11 @@ void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
     entry.allow_keys({"sphere", "group"});
     model.feet.push_back(foot_of(sphere_of(*sphere, model), name));
     model.feet.back().group = group;
+    return;
+  }
+  if (const auto capsule = entry.find("capsule")) {
+    entry.allow_keys({"capsule", "group"});
+    add_capsule(*capsule, name, group, model);
     return;
   }
   entry.allow_keys({"link", "value", "unit", "radius", "box", "group", "source", "assumed"});
@@ -116,13 +134,13 @@ void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
   model.feet.push_back(std::move(foot));
 }
 
-/// All spheres of the skeleton, with laws in common.
+/// All spheres and ends of capsules of the skeleton, with laws in common.
 void take_spheres(const YamlNode& node, Model& model) {
   if (node.text() != "take") {
     node.refuse(quote(node.text()), "take, or feet by name");
   }
   if (model.skeleton.spheres.empty()) {
-    node.refuse("a skeleton without spheres that may touch the ground",
+    node.refuse("a skeleton without spheres or capsules that may touch the ground",
                 "an MJCF file with such geoms, or feet by name");
   }
   for (const ContactSphere& sphere : model.skeleton.spheres) {

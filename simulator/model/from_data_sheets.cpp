@@ -89,7 +89,7 @@ const Coordinate* coordinate_of(const Model& model, const std::string& joint) {
 }
 
 bool has_dynamics(const Joint& joint) {
-  return joint.damping > 0.0 || joint.friction > 0.0 || joint.armature > 0.0;
+  return joint.damping > 0.0 || joint.friction > 0.0 || joint.armature > 0.0 || joint.stiffness > 0.0;
 }
 
 }  // namespace
@@ -173,6 +173,13 @@ void take_joint_dynamics(const YamlNode& node, const effects::Catalogue& catalog
       set(use, "level", joint.friction, 0.0, source);
       model.effects.push_back(std::move(use));
     }
+    if (joint.stiffness > 0.0) {
+      EffectUse use = effect_of(model, catalogue, "spring", coordinate->name);
+      const double factor = coordinate->terms.front().factor;  // 1 or -1
+      set(use, "stiffness", joint.stiffness, 0.0, source);
+      set(use, "rest", factor * joint.rest, 0.0, source);
+      model.effects.push_back(std::move(use));
+    }
     if (joint.armature > 0.0) {
       Inertia inertia;
       inertia.name = "armature_" + joint.name;
@@ -182,7 +189,7 @@ void take_joint_dynamics(const YamlNode& node, const effects::Catalogue& catalog
       inertia.value.source = source;
       model.inertias.push_back(std::move(inertia));
     }
-    joint.damping = joint.friction = joint.armature = 0.0;
+    joint.damping = joint.friction = joint.armature = joint.stiffness = 0.0;
   }
 }
 
@@ -202,6 +209,7 @@ std::vector<std::string> joint_dynamics_left(const Model& model) {
     add("damping", joint.damping, force_unit(angular) + " s/" + position_unit(angular));
     add("friction", joint.friction, force_unit(angular));
     add("armature", joint.armature, inertia_unit(angular));
+    add("stiffness", joint.stiffness, force_unit(angular) + "/" + position_unit(angular));
     left.push_back("The skeleton states " + what + " of joint " + joint.name +
                    ": not taken over; `joint_dynamics: take` in the model makes effects of it.");
   }

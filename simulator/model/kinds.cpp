@@ -10,11 +10,26 @@ std::string reading_unit(const Model& model, const std::string& sensor) {
   if (known != nullptr && known->is_force_plate()) {
     return force_unit(false);
   }
+  if (known != nullptr && known->is_at_point()) {
+    switch (known->reading) {
+      case PointReading::orientation:
+        return "rad";
+      case PointReading::gyroscope:
+        return "rad/s";
+      case PointReading::accelerometer:
+        return "m/s^2";
+      default:
+        return "m";
+    }
+  }
   const std::string position = position_unit(model.place_is_angular(effects::Place::sensor, sensor));
   return known != nullptr && known->rate ? position + "/s" : position;
 }
 
 std::string reading_column(const Sensor& sensor) {
+  if (sensor.is_at_point()) {
+    return sensor.name;
+  }
   return (sensor.is_force_plate() ? "F_" : sensor.rate ? "v_" : "q_") + sensor.name;
 }
 
@@ -37,6 +52,34 @@ std::string to_string(Loop::Type type) {
       break;
   }
   return "rod";
+}
+
+std::string to_string(PointReading reading) {
+  switch (reading) {
+    case PointReading::marker:
+      return "marker";
+    case PointReading::orientation:
+      return "orientation";
+    case PointReading::gyroscope:
+      return "gyroscope";
+    case PointReading::accelerometer:
+      return "accelerometer";
+    case PointReading::none:
+      break;
+  }
+  return "";
+}
+
+std::string measured_by(const Model& model, const Sensor& sensor) {
+  if (sensor.is_at_point()) {
+    return to_string(sensor.reading) + " on " +
+           model.skeleton.bodies[static_cast<std::size_t>(sensor.body)].name;
+  }
+  std::string feet;
+  for (const int foot : sensor.feet) {
+    feet += (feet.empty() ? "vertical force on " : ", ") + model.feet[static_cast<std::size_t>(foot)].name;
+  }
+  return sensor.is_force_plate() ? feet : sensor.measures;
 }
 
 std::vector<std::string> joint_names(const Skeleton& skeleton) {

@@ -21,6 +21,10 @@ std::string ratio_unit(bool motor_angular, bool coordinate_angular);
 
 /// connect, hinge, weld, rod
 std::string to_string(Loop::Type type);
+/// "gyroscope", as the model file calls it.
+std::string to_string(PointReading reading);
+/// What a sensor measures: a place of the model, "vertical force on toe", "gyroscope on trunk".
+std::string measured_by(const Model& model, const Sensor& sensor);
 
 std::vector<std::string> joint_names(const Skeleton& skeleton);  ///< moving joints
 /// Coordinates, then pulleys, which count as coordinates wherever one is named.

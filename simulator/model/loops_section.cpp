@@ -1,6 +1,7 @@
 // The model's closed loops.
 #include <algorithm>
 
+#include "simulator/model/frames_in_file.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/plain_number.h"
@@ -13,21 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kWorld = "world";
-
-Vector3d three(const YamlNode& node, const std::string& expected) {
-  const std::vector<YamlNode> numbers = node.items();
-  if (numbers.size() != 3) {
-    node.refuse(std::to_string(numbers.size()) + " numbers", "three: " + expected);
-  }
-  return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
-}
-
-double factor_of(const YamlNode& unit, const std::string& dimension) {
-  if (!units_agree(unit.text(), dimension)) {
-    unit.refuse("unit " + quote(unit.text()), "a unit like " + quote(dimension));
-  }
-  return to_si_factor(unit.text());
-}
 
 Loop::Type type_of(const YamlNode& entry) {
   const YamlNode type = entry.at("type");
@@ -61,15 +47,6 @@ Eigen::Matrix3d about(const YamlNode& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction).toRotationMatrix();
 }
 
-/// Roll, pitch and yaw as in URDF: about x, then the fixed y, then the fixed z.
-Eigen::Matrix3d turned(const YamlNode& turn) {
-  turn.allow_keys({"value", "unit"});
-  const Vector3d angles = factor_of(turn.at("unit"), "rad") * three(turn.at("value"), "roll, pitch and yaw");
-  return (Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(angles.y(), Vector3d::UnitY()) * Eigen::AngleAxisd(angles.x(), Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 LoopEnd read_end(const YamlNode& node, Loop::Type type, const Model& model) {
   node.allow_keys(type == Loop::Type::hinge  ? std::vector<std::string>{"link", "value", "unit", "axis"}
                   : type == Loop::Type::weld ? std::vector<std::string>{"link", "value", "unit", "turn"}
@@ -91,6 +68,9 @@ void read_near(const YamlNode& near, Model& model) {
     if (std::find(joints.begin(), joints.end(), name) == joints.end()) {
       value.refuse(quote(name), "the name of a joint that moves" + nearest_names(name, joints));
     }
+    const auto same = [&, wanted = name](const Lock& one) { return one.at == wanted; };
+    model.loops_near.erase(std::remove_if(model.loops_near.begin(), model.loops_near.end(), same),
+                           model.loops_near.end());
     model.loops_near.push_back({name, read_number(value, position_unit(is_angular(model, name)))});
   }
 }

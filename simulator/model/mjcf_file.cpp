@@ -175,7 +175,7 @@ class MjcfReader : private MjcfValues {
       const Vector3d at = position_of(*joints[j], childclass);
       const Eigen::Isometry3d X_BJ(Eigen::Translation3d(at.x(), at.y(), at.z()));
       joint.parent = j == 0 ? parent : static_cast<int>(skeleton_.bodies.size()) - 1;
-      joint.X_PJ = (j == 0 ? X_PB : Eigen::Isometry3d::Identity()) * X_BJ;
+      joint.X_PJ = (j == 0 ? X_PB : Eigen::Isometry3d::Identity()) * X_BJ * back_from_reference(joint);
       joint.X_CJ = X_BJ;
       Body here = body;
       if (j + 1 < joints.size()) {
@@ -229,6 +229,17 @@ class MjcfReader : private MjcfValues {
     skeleton_.joints.push_back(std::move(joint));
   }
 
+  /// The file's pose is that at the joint's reference; X_PJ is that at zero.
+  static Eigen::Isometry3d back_from_reference(const Joint& joint) {
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    if (joint.type == JointType::revolute) {
+      X.linear() = Eigen::AngleAxisd(-joint.reference, joint.axis).toRotationMatrix();
+    } else if (joint.type == JointType::prismatic) {
+      X.translation() = -joint.reference * joint.axis;
+    }
+    return X;
+  }
+
   Vector3d position_of(const XMLElement& joint, const std::string& childclass) const {
     const char* at = defaults_.attribute(joint, "pos", childclass);
     return at == nullptr ? Vector3d::Zero() : vector(joint, at, "pos");
@@ -256,14 +267,10 @@ class MjcfReader : private MjcfValues {
     joint.damping = not_negative(element, "damping", childclass);
     joint.friction = not_negative(element, "frictionloss", childclass);
     joint.armature = not_negative(element, "armature", childclass);
-    if (number(element, "stiffness", childclass, 0.0) != 0.0) {
-      skeleton_.left_out.push_back("The spring of joint " + joint.name +
-                                   " (stiffness, springref): state it as the effect `spring`.");
-    }
-    if (number(element, "ref", childclass, 0.0) != 0.0) {
-      refuse(element, "ref, another zero of the joint",
-             "0: the zero of the file's pose; sensors have an `offset`");
-    }
+    const double unit = kind == "hinge" ? angle_ : 1.0;
+    joint.stiffness = not_negative(element, "stiffness", childclass);
+    joint.rest = unit * number(element, "springref", childclass, 0.0);
+    joint.reference = unit * number(element, "ref", childclass, 0.0);
     return joint;
   }
 
@@ -344,8 +351,12 @@ class MjcfReader : private MjcfValues {
       if (!touches) {
         continue;
       }
-      if ((type != nullptr && std::string(type) != "sphere") ||
-          defaults_.attribute(*geom, "mesh", childclass) != nullptr) {
+      const std::string kind = type == nullptr ? "sphere" : type;
+      if (kind == "capsule") {
+        note_capsule(*geom, childclass, body);
+        continue;
+      }
+      if (kind != "sphere" || defaults_.attribute(*geom, "mesh", childclass) != nullptr) {
         ++shapes_;
         continue;
       }
@@ -361,26 +372,29 @@ class MjcfReader : private MjcfValues {
     }
   }
 
-  RigidPart read_geom(const XMLElement& geom, const std::string& kind, const std::string& childclass) const {
-    Eigen::Isometry3d X = pose(geom, childclass);
-    std::vector<double> size;
-    if (const char* given = defaults_.attribute(geom, "size", childclass)) {
-      size = numbers(geom, given, "size");
+  /// On a plane a capsule touches with one of its ends, which are spheres, or with both.
+  void note_capsule(const XMLElement& geom, const std::string& childclass, const std::string& body) {
+    const Shape rod = shape_of(geom, childclass);
+    ContactSphere end;
+    end.shape = fresh_name(geom, body + "_capsule");
+    end.body = static_cast<int>(skeleton_.bodies.size()) - 1;
+    end.radius = rod.size.empty() ? 0.0 : rod.size[0];
+    if (!(end.radius > 0.0) || rod.size.size() < 2 || rod.size[1] < 0.0) {
+      refuse(geom, "a capsule without radius or length",
+             "size=\"radius half_length\", or fromto and a radius");
     }
-    if (const char* ends = defaults_.attribute(geom, "fromto", childclass)) {
-      const std::vector<double> p = numbers(geom, ends, "fromto");
-      if (p.size() != 6) {
-        refuse(geom, "fromto=\"" + std::string(ends) + "\"", "six numbers");
-      }
-      const Vector3d a(p[0], p[1], p[2]);
-      const Vector3d b(p[3], p[4], p[5]);
-      X.translation() = 0.5 * (a + b);
-      X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), b - a).toRotationMatrix();
-      size.resize(1);
-      size.push_back(0.5 * (b - a).norm());
-      if (kind == "box" || kind == "ellipsoid") {
-        size = {size[0], size[0], size[1]};
-      }
+    for (const double side : {1.0, -1.0}) {
+      end.name = end.shape + (side > 0.0 ? "_1" : "_2");
+      end.centre = rod.X * Vector3d(0.0, 0.0, side * rod.size[1]);
+      skeleton_.spheres.push_back(end);
+    }
+  }
+
+  RigidPart read_geom(const XMLElement& geom, const std::string& kind, const std::string& childclass) const {
+    auto [X, size] = shape_of(geom, childclass);
+    if (defaults_.attribute(geom, "fromto", childclass) != nullptr &&
+        (kind == "box" || kind == "ellipsoid")) {
+      size = {size[0], size[0], size[1]};
     }
     const std::optional<RigidPart> unit = solid(kind, size);
     if (!unit) {
@@ -432,8 +446,9 @@ class MjcfReader : private MjcfValues {
       }
     }
     if (shapes_ > 0) {
-      skeleton_.left_out.push_back("The contact of " + std::to_string(shapes_) +
-                                   " geoms that are no spheres: state points of them as `feet`.");
+      skeleton_.left_out.push_back(
+          "The contact of " + std::to_string(shapes_) +
+          " geoms that are neither spheres nor capsules: state points of them as `feet`.");
     }
     if (limits_ > 0) {
       skeleton_.left_out.push_back("The ranges of " + std::to_string(limits_) +

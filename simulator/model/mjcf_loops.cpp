@@ -19,9 +19,14 @@ class MjcfLoops : private MjcfValues {
   MjcfLoops(const std::string& file, const XMLElement& root, Skeleton& skeleton)
       : MjcfValues(file), skeleton_(skeleton) {
     defaults_ = MjcfDefaults(root);
-    const auto moves = [](const Joint& joint) { return joint.type != JointType::fixed; };
-    const auto joints = std::count_if(skeleton.joints.begin(), skeleton.joints.end(), moves);
-    poses_ = body_poses(skeleton, Eigen::VectorXd::Zero(joints));
+    std::vector<double> file_pose;
+    for (const Joint& joint : skeleton.joints) {
+      if (joint.type != JointType::fixed) {
+        file_pose.push_back(joint.reference);
+      }
+    }
+    poses_ = body_poses(
+        skeleton, Eigen::Map<Eigen::VectorXd>(file_pose.data(), static_cast<Eigen::Index>(file_pose.size())));
   }
 
   void read(const XMLElement& element) {

@@ -117,6 +117,26 @@ Matrix3d MjcfValues::euler(const std::vector<double>& angles) const {
   return R;
 }
 
+MjcfValues::Shape MjcfValues::shape_of(const XMLElement& geom, const std::string& childclass) const {
+  Shape shape{pose(geom, childclass), {}};
+  if (const char* given = defaults_.attribute(geom, "size", childclass)) {
+    shape.size = numbers(geom, given, "size");
+  }
+  if (const char* ends = defaults_.attribute(geom, "fromto", childclass)) {
+    const std::vector<double> p = numbers(geom, ends, "fromto");
+    if (p.size() != 6) {
+      refuse(geom, "fromto=\"" + std::string(ends) + "\"", "six numbers");
+    }
+    const Vector3d a(p[0], p[1], p[2]);
+    const Vector3d b(p[3], p[4], p[5]);
+    shape.X.translation() = 0.5 * (a + b);
+    shape.X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), b - a).toRotationMatrix();
+    shape.size.resize(1);
+    shape.size.push_back(0.5 * (b - a).norm());
+  }
+  return shape;
+}
+
 double MjcfValues::not_negative(const XMLElement& element, const char* name,
                                 const std::string& childclass) const {
   const double value = number(element, name, childclass, 0.0);

@@ -34,6 +34,13 @@ class MjcfValues {
   Matrix3d orientation(const XMLElement& element, const std::string& childclass) const;
   /// Lower-case letters turn about the moving axes, upper-case ones about the fixed.
   Matrix3d euler(const std::vector<double>& angles) const;
+  /// A geom's pose and sizes; of one between two points (`fromto`) the z axis lies along them, and the second
+  /// size is half their distance.
+  struct Shape {
+    Eigen::Isometry3d X;
+    std::vector<double> size;
+  };
+  Shape shape_of(const XMLElement& geom, const std::string& childclass) const;
   double not_negative(const XMLElement& element, const char* name, const std::string& childclass) const;
 
   std::string file_;

@@ -63,6 +63,11 @@ bool Model::has_force_plate() const {
   return std::any_of(sensors.begin(), sensors.end(), [](const Sensor& one) { return one.is_force_plate(); });
 }
 
+bool Model::has(PointReading reading) const {
+  return std::any_of(sensors.begin(), sensors.end(),
+                     [&](const Sensor& one) { return one.reading == reading; });
+}
+
 std::vector<std::string> Model::places(effects::Place place) const {
   std::vector<std::string> names;
   switch (place) {
@@ -129,6 +134,9 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
     }
     case effects::Place::sensor: {
       const Sensor* sensor = find_sensor(at);
+      if (sensor != nullptr && sensor->is_at_point()) {
+        return sensor->reading == PointReading::orientation || sensor->reading == PointReading::gyroscope;
+      }
       return sensor == nullptr || is_angular(*this, sensor->measures);
     }
     case effects::Place::foot:

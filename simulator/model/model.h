@@ -51,19 +51,23 @@ struct Joint {
   Arc arc;  ///< of a prismatic joint, in J
   /// What the skeleton file itself says under <dynamics>: N m s/rad and N m (N s/m and N); 0: nothing.
   double damping = 0.0, friction = 0.0;
-  double armature = 0.0;  ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
-  bool floats = false;    ///< one of the six of a free joint (joint_chain.h): nothing drives it
-  std::string mimics{};   ///< URDF's <mimic>: position = follows * position of that joint; "": of none
+  double armature = 0.0;   ///< MJCF: inertia of the rotor seen at the joint, kg m^2 or kg
+  double reference = 0.0;  ///< MJCF's ref: its position in the file's pose, rad or m
+  double stiffness = 0.0;  ///< MJCF: of a spring at the joint, N m/rad or N/m
+  double rest = 0.0;       ///< of that spring (springref), rad or m
+  bool floats = false;     ///< one of the six of a free joint (joint_chain.h): nothing drives it
+  std::string mimics{};    ///< URDF's <mimic>: position = follows * position of that joint; "": of none
   double follows = 0.0;
 };
 
 /// A sphere of the skeleton file that may touch the ground, on a body (index), its centre in the body's
-/// frame.
+/// frame. Of a capsule one of its two ends: on a plane nothing else of it can touch.
 struct ContactSphere {
   std::string name;
   int body = 0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< m
   double radius = 0.0;                               ///< m
+  std::string shape{};                               ///< the capsule it is an end of; empty: a sphere
 };
 
 /// One end of a loop: a point of a link, or of the world (body -1).
@@ -174,8 +178,11 @@ struct EffectUse {
   std::string label() const;  ///< "viscous at mLA"
 };
 
-/// One measured channel: a position, its rate (tachometer, gyroscope), or the vertical force of the ground on
-/// some feet (a force plate).
+/// What is measured at a point of a link, a vector of three components (point_sensors.h).
+enum class PointReading { none, marker, orientation, gyroscope, accelerometer };
+
+/// One measured channel: a position, its rate (tachometer, gyroscope of one axis), the vertical force of the
+/// ground on some feet (a force plate), or a component of what is measured at a point of a link.
 struct Sensor {
   std::string name;
   std::string measures;   ///< coordinate, motor or pulley; of a force plate empty
@@ -185,8 +192,18 @@ struct Sensor {
   std::string source;
   std::vector<int> feet{};  ///< that stand on the force plate, indices in Model::feet; else empty
   bool rate = false;        ///< it shows the rate of change of what it measures
+  PointReading reading = PointReading::none;
+  int axis = 0;                                            ///< of a point's reading: 0 to 2 for x to z
+  int body = -1;                                           ///< index in Skeleton::bodies
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();         ///< p_BS_B, m
+  Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity();  ///< R_BS, the sensor's axes on the link
+  std::string group{};                                     ///< what it is a component of, by its name
   bool is_force_plate() const { return !feet.empty(); }
-  bool shows_position() const { return !rate && feet.empty(); }
+  bool is_at_point() const { return reading != PointReading::none; }
+  /// Of a coordinate, motor, pulley or joint: a line in the positions.
+  bool shows_position() const { return !rate && feet.empty() && !is_at_point(); }
+  /// Where a link is: no line in the positions, but positions follow from it.
+  bool shows_pose() const { return reading == PointReading::marker || reading == PointReading::orientation; }
   /// Residual that the sensor alone would leave: sqrt(resolution^2/12 + noise^2).
   double floor() const;
 };
@@ -237,6 +254,7 @@ struct Model {
   int motor_index(const std::string& name) const;   ///< -1
   int sensor_index(const std::string& name) const;  ///< -1
   bool has_force_plate() const;
+  bool has(PointReading reading) const;
   /// Names of the places where a law may sit, in file order.
   std::vector<std::string> places(effects::Place place) const;
   /// Rotary (true) or linear place; bodies, sensors and world count as rotary except sensors of linear

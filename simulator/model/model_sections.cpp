@@ -381,6 +381,8 @@ void read_sensors(const YamlNode& node, Model& model) {
       model.switches.push_back(read_switch(name, entry, model));
     } else if (entry.is_map() && entry.has("force")) {
       model.sensors.push_back(read_force_plate(name, entry, model));
+    } else if (is_point_sensor(entry)) {
+      read_point_sensor(name, entry, model);
     } else {
       model.sensors.push_back(read_sensor(name, entry, model));
     }

@@ -21,8 +21,13 @@ void read_inertias(const YamlNode& node, Model& model);
 void read_feet(const YamlNode& node, Model& model);
 /// loops: what closes chains of joints, and where they are closed first.
 void read_loops(const YamlNode& node, Model& model);
-/// sensors: of positions, and contact switches; needs feet.
+/// sensors: of positions, force plates, contact switches, and what is measured at points of links; needs
+/// feet.
 void read_sensors(const YamlNode& node, Model& model);
+/// Does an entry of sensors state a marker, orientation, gyroscope or accelerometer? And its three
+/// components.
+bool is_point_sensor(const YamlNode& entry);
+void read_point_sensor(const std::string& name, const YamlNode& entry, Model& model);
 
 /// One name means one thing among joints, coordinates, motors and pulleys; a coordinate may share the name of
 /// the joint that it is. `root` gives the line.

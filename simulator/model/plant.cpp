@@ -292,6 +292,10 @@ void Plant::place_sensors() {
       output_offset_[s] = 0.0;
       continue;
     }
+    if (sensor.is_at_point()) {
+      place_point_sensor(s);
+      continue;
+    }
     const Line line = line_of(full_direction(sensor.measures));
     output_map_.row(s) = line.reduced.transpose();
     output_offset_[s] = sensor.rate ? sensor.offset : line.offset + sensor.offset;

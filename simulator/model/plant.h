@@ -115,15 +115,23 @@ class Plant {
   /// d2z/dt2 of a start at rest under gravity alone, without any effect's force.
   Eigen::VectorXd fall(const double* x);
 
-  /// What the sensors would read without quantisation and noise, SI.
-  void outputs(const double* x, double* y);
-  /// d(what a sensor truly sees)/dz, of a rate sensor /d(dz/dt), sensors x positions; a force plate's row is
-  /// zero.
+  /// What the sensors would read without quantisation and noise, SI. Accelerometers need the commands that
+  /// hold (delayed already); null: all are zero. Of an orientation the rotation vector of the sensor's axes
+  /// in the world, R = exp([y]), |y| <= pi.
+  void outputs(const double* x, double* y, const double* command = nullptr);
+  /// d(what a sensor truly sees)/dz, of a rate sensor /d(dz/dt), sensors x positions; the rows of force
+  /// plates and of what is measured at points of links are zero.
   const Eigen::MatrixXd& output_map() const { return output_map_; }
   /// True position of each sensor at z = 0.
   const Eigen::VectorXd& output_offset() const { return output_offset_; }
   /// Rows that are zero when no released ratio is stretched (for an unobserved start).
   const Eigen::MatrixXd& stretch_map() const { return stretch_map_; }
+
+  /// The tree of links, at the positions and velocities evaluated last; the index of a sensor's link in it;
+  /// and the joints' positions S z + q0 that it is placed by: S.
+  const TreeDynamics& tree() const { return structure_.mechanism->tree(); }
+  int tree_body_of_sensor(int sensor) const;
+  const Eigen::MatrixXd& joint_map() const { return S_tree_; }
 
   /// The model's feet, in its order; one that no ground law holds reads zeros.
   std::vector<Touch> touches(const double* x);
@@ -206,8 +214,11 @@ class Plant {
   void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
                       const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
   /// d(outputs)/d(positions, velocities) with the sensors' own scale effects, sensors x 2 positions; a force
-  /// plate's row is zero.
-  void output_jacobian(const double* x, Eigen::MatrixXd& C);
+  /// plate's row is zero. Of an orientation: the turn about the sensor's own axes. Of an accelerometer: with
+  /// the accelerations d2z/dt2 held that `command` gives; what their change adds is acceleration_map().
+  void output_jacobian(const double* x, Eigen::MatrixXd& C, const double* command = nullptr);
+  /// d(outputs)/d(d2z/dt2), sensors x positions: of accelerometers, zero for all others.
+  Eigen::MatrixXd acceleration_map(const double* x);
 
   /// Approximate d(rate)/dx for implicit integrators: mass matrix and the effects' own slopes, no further
   /// forward dynamics.
@@ -280,6 +291,10 @@ class Plant {
     const effects::SwitchLaw* law = nullptr;
     int effect = 0;
   };
+  struct PointSlot {
+    int sensor = 0;  // index in the model
+    int body = -1;   // in the mechanism's tree
+  };
   struct Structure {
     std::unique_ptr<Mechanism> mechanism;
     Eigen::VectorXd extra_inertia;  // on all full coordinates, diagonal
@@ -322,6 +337,13 @@ class Plant {
   void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void ground_energetics(const double* x, Energetics& e) const;
   void plate_outputs(const double* x, double* y);
+  void place_point_sensor(int sensor);
+  void point_outputs(const double* x, const double* command, double* y);
+  void point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C);
+  Eigen::VectorXd accelerations_at(const double* x, const double* command);
+  void read_points(const double* x, const Eigen::VectorXd& acceleration, Eigen::VectorXd& readings);
+  void tilt_tangent(const double* x, const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps,
+                    Eigen::MatrixXd& D);
   Structure make_structure() const;
   void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
   void check_mass_matrix();
@@ -388,6 +410,7 @@ class Plant {
   std::vector<StructureSlot> structures_;
   std::vector<std::vector<SensorSlot>> sensor_effects_;
   std::vector<SwitchSlot> switch_effects_;
+  std::vector<PointSlot> points_;
   std::vector<Line> motor_lines_;
   Eigen::MatrixXd output_map_, stretch_map_;
   Eigen::VectorXd output_offset_;

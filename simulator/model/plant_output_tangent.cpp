@@ -6,7 +6,7 @@
 
 namespace plumbline::model {
 
-void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
+void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C, const double* command) {
   C.setZero(sensors(), 2 * nz_);
   for (int s = 0; s < sensors(); ++s) {
     const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
@@ -29,6 +29,7 @@ void Plant::output_jacobian(const double* x, Eigen::MatrixXd& C) {
     }
     C.row(s) *= (plus - minus) / 2e-6;
   }
+  point_jacobian(x, command, C);
 }
 
 void Plant::output_tangent(const double* x, const std::vector<ParameterId>& parameters,
@@ -65,6 +66,7 @@ void Plant::output_tangent(const double* x, const std::vector<ParameterId>& para
       D(s, column) = (read(steps[column]) - read(0.0)) / steps[column];
     }
   }
+  tilt_tangent(x, parameters, steps, D);
 }
 
 }  // namespace plumbline::model

@@ -226,7 +226,7 @@ void Plant::raise_speeds(const double* x, double* speeds) {
   }
 }
 
-void Plant::outputs(const double* x, double* y) {
+void Plant::outputs(const double* x, double* y, const double* command) {
   for (int s = 0; s < sensors(); ++s) {
     const double* seen = model_.sensors[static_cast<std::size_t>(s)].rate ? x + nz_ : x;
     double reading = output_offset_[s];
@@ -244,6 +244,7 @@ void Plant::outputs(const double* x, double* y) {
     y[s] = reading;
   }
   plate_outputs(x, y);
+  point_outputs(x, command, y);
 }
 
 double Plant::switch_lateness(const std::string& contact_switch, bool closes) const {

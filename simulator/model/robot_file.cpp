@@ -103,6 +103,11 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "feet", read_feet, model);
   model.loops = model.skeleton.loops;
+  for (const Joint& joint : model.skeleton.joints) {
+    if (joint.reference != 0.0 && !model.loops.empty()) {
+      model.loops_near.push_back({joint.name, joint.reference});  // the file's pose, unless `near` says more
+    }
+  }
   read_section(root, "loops", read_loops, model);
   read_section(root, "sensors", read_sensors, model);
   if (const auto effects = root.find("effects")) {

@@ -179,6 +179,29 @@ Eigen::Vector3d TreeDynamics::angular_velocity(int body) const {
   return velocity_[static_cast<std::size_t>(body)].head<3>();
 }
 
+Eigen::Matrix3Xd TreeDynamics::station_jacobian(int body, const Eigen::Vector3d& p_W) const {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, size_);
+  for (int a = body; a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (coordinate >= 0) {
+      const Vector6& axis = axis_[static_cast<std::size_t>(a)];
+      J.col(coordinate) = axis.tail<3>() + axis.head<3>().cross(p_W);
+    }
+  }
+  return J;
+}
+
+Eigen::Matrix3Xd TreeDynamics::turn_jacobian(int body) const {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, size_);
+  for (int a = body; a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (coordinate >= 0) {
+      J.col(coordinate) = axis_[static_cast<std::size_t>(a)].head<3>();
+    }
+  }
+  return J;
+}
+
 void TreeDynamics::add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                              Eigen::VectorXd& Q) const {
   Vector6 wrench;

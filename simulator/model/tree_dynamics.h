@@ -48,6 +48,11 @@ class TreeDynamics {
   /// Acceleration of a point fixed on a body at dv/dt = 0, m/s^2, and the body's angular velocity, rad/s.
   Eigen::Vector3d station_acceleration(int body, const Eigen::Vector3d& p_W) const;
   Eigen::Vector3d angular_velocity(int body) const;
+  /// d(station_velocity)/dv and d(angular_velocity)/dv, 3 x coordinates.
+  Eigen::Matrix3Xd station_jacobian(int body, const Eigen::Vector3d& p_W) const;
+  Eigen::Matrix3Xd turn_jacobian(int body) const;
+  /// In the world, m/s^2.
+  const Eigen::Vector3d& gravity() const { return gravity_; }
   /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.
   void add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                  Eigen::VectorXd& Q) const;

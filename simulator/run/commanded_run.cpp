@@ -23,6 +23,9 @@ CommandedRun run_commands(model::Plant& plant, const Eigen::VectorXd& x0, const 
   CommandedRun result = sized(plant, samples);
   Simulation simulation(plant, {options.integrator, period, options.energy, options.events});
   simulation.start(x0, t0);
+  if (samples > 0) {
+    simulation.hold(commands.col(0));
+  }
   Sensors exact(plant.model(), {false, false, 0});
   Sensed sensed;
   Eigen::VectorXd command;

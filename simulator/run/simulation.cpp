@@ -34,9 +34,13 @@ void Simulation::start(const Eigen::VectorXd& state, double t0) {
   integrator_.start(t0, all);
 }
 
+void Simulation::hold(const Eigen::VectorXd& command) {
+  std::copy(command.data(), command.data() + command.size(), ode_.command());
+}
+
 void Simulation::measure() {
   const double* x = integrator_.state().data();
-  plant_.outputs(x, outputs_.data());
+  plant_.outputs(x, outputs_.data(), ode_.command());
   plates_.write(outputs_.data());
   touches_ = plant_.touches(x);
 }

@@ -30,6 +30,8 @@ class Simulation {
 
   /// Begins at t0. Where the model delays a command, the first one holds until it arrives.
   void start(const Eigen::VectorXd& state, double t0 = 0.0);
+  /// The command that held before the start, which accelerometers feel at the first sample; zero by itself.
+  void hold(const Eigen::VectorXd& command);
   /// Looks at the present sample: outputs() and touches() are of it from now on.
   void measure();
   /// To the next sample, under a command for each motor (command units). Throws std::runtime_error when the

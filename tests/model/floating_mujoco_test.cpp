@@ -1,7 +1,6 @@
 // A floating robot with hinges, a slide and a ball joint beside MuJoCo, which holds orientations as
 // quaternions.
 #include <gtest/gtest.h>
-#include <mujoco/mujoco.h>
 
 #include <cstdlib>
 #include <memory>
@@ -10,13 +9,11 @@
 #include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/number_text.h"
-#include "tests/model/floating_states.h"
+#include "tests/model/mujoco_peer.h"
 #include "tests/trace/temporary_folder.h"
 
 namespace plumbline::model {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr const char* kDog = R"(<mujoco model="dog">
   <compiler angle="radian"/>
@@ -49,69 +46,6 @@ constexpr const char* kDog = R"(<mujoco model="dog">
 </mujoco>
 )";
 
-struct Mujoco {
-  explicit Mujoco(const std::string& path) {
-    char error[500] = "";
-    m = mj_loadXML(path.c_str(), nullptr, error, sizeof error);
-    EXPECT_NE(m, nullptr) << error;
-    m->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_PASSIVE;
-    m->opt.enableflags |= mjENBL_ENERGY;
-    d = mj_makeData(m);
-  }
-  ~Mujoco() {
-    mj_deleteData(d);
-    mj_deleteModel(m);
-  }
-  Mujoco(const Mujoco&) = delete;
-  Mujoco& operator=(const Mujoco&) = delete;
-  mjModel* m = nullptr;
-  mjData* d = nullptr;
-};
-
-/// Ours to MuJoCo's, joint by joint: where a chart begins, three angles make a quaternion.
-void set_state(const Mujoco& mujoco, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  int next = 0;
-  for (int j = 0; j < mujoco.m->njnt; ++j) {
-    double* qpos = mujoco.d->qpos + mujoco.m->jnt_qposadr[j];
-    double* qvel = mujoco.d->qvel + mujoco.m->jnt_dofadr[j];
-    const int type = mujoco.m->jnt_type[j];
-    for (int i = 0; type == mjJNT_FREE && i < 3; ++i) {
-      *qpos++ = q[next];
-      *qvel++ = v[next++];
-    }
-    if (type != mjJNT_FREE && type != mjJNT_BALL) {
-      *qpos = q[next];
-      *qvel = v[next++];
-      continue;
-    }
-    const Vector3d angles = q.segment<3>(next), rates = v.segment<3>(next);
-    const Eigen::Quaterniond turn(test::rotation_of(angles));
-    const Vector3d w = test::rates_map(angles) * rates;
-    const double quaternion[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
-    std::copy(quaternion, quaternion + 4, qpos);
-    std::copy(w.data(), w.data() + 3, qvel);
-    next += 3;
-  }
-}
-
-/// Our accelerations as MuJoCo gives them.
-Eigen::VectorXd accelerations(const Mujoco& mujoco, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              Eigen::VectorXd a) {
-  int next = 0;
-  for (int j = 0; j < mujoco.m->njnt; ++j) {
-    const int type = mujoco.m->jnt_type[j];
-    next += type == mjJNT_FREE ? 3 : 0;
-    if (type == mjJNT_FREE || type == mjJNT_BALL) {
-      a.segment<3>(next) =
-          test::angular_acceleration(q.segment<3>(next), v.segment<3>(next), a.segment<3>(next).eval());
-      next += 3;
-    } else {
-      ++next;
-    }
-  }
-  return a;
-}
-
 /// PLUMBLINE_FLOATING_MJCF names another file: no copy of a foreign model is kept here.
 class Floating : public testing::Test {
  protected:
@@ -128,7 +62,8 @@ TEST_F(Floating, MovesAsMujocoDoes) {
       read_model(folder_.write("model.yaml", "plumbline: model/1\nrobot: dog\nskeleton: " + file + "\n"),
                  known_effects());
   Plant plant(model, {});
-  const Mujoco mujoco(file);
+  const test::Mujoco mujoco(file);
+  mujoco.m->opt.disableflags |= mjDSBL_PASSIVE;
   const int n = plant.positions();
   ASSERT_EQ(n, mujoco.m->nv);
   for (int i = 0; i < n; ++i) {
@@ -148,9 +83,9 @@ TEST_F(Floating, MovesAsMujocoDoes) {
     x.segment(n, n) = 2.0 * Eigen::VectorXd::Random(n);
     Eigen::VectorXd rate(plant.states());
     plant.rate(x.data(), nullptr, rate.data());
-    set_state(mujoco, x.head(n), x.segment(n, n));
+    test::set_state(mujoco, x.head(n), x.segment(n, n));
     mj_forward(mujoco.m, mujoco.d);
-    const Eigen::VectorXd ours = accelerations(mujoco, x.head(n), x.segment(n, n), rate.segment(n, n));
+    const Eigen::VectorXd ours = test::accelerations(mujoco, x.head(n), x.segment(n, n), rate.segment(n, n));
     const Eigen::Map<const Eigen::VectorXd> theirs(mujoco.d->qacc, n);
     worst = std::max(worst, (ours - theirs).cwiseAbs().maxCoeff() / (1.0 + theirs.cwiseAbs().maxCoeff()));
     const double theirs_energy = mujoco.d->energy[0] + mujoco.d->energy[1];

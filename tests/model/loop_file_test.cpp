@@ -99,7 +99,7 @@ TEST_F(LoopFiles, OneEncoderShowsAllJoints) {
   EXPECT_TRUE(from.determined());
   const Eigen::MatrixXd knee = Eigen::RowVector3d(-0.35, -0.3, -0.25);
   const Eigen::MatrixXd z = from.positions(knee);
-  const Eigen::MatrixXd w = from.rates(Eigen::RowVector3d(0.5, -1.0, 2.0), z);
+  const Eigen::MatrixXd w = from.rates(Eigen::RowVector3d(0.5, -1.0, 2.0), z, knee);
   Plant other(model, {});
   for (Eigen::Index k = 0; k < 3; ++k) {
     Eigen::VectorXd x(other.states());

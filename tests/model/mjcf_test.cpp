@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/model/mjcf_file.h"
@@ -34,7 +35,7 @@ constexpr const char* kLeg = R"(<mujoco model="leg">
   <worldbody>
     <geom type="plane" size="1 1 1"/>
     <body name="carriage" pos="0.1 0 1.2" euler="10 20 30">
-      <joint name="rail" type="slide" axis="1 0 0.2" damping="5"/>
+      <joint name="rail" type="slide" axis="1 0 0.2" damping="5" ref="0.1"/>
       <inertial pos="0.01 0.02 0.03" quat="0.9 0.1 0.3 0.2" mass="3" diaginertia="0.02 0.03 0.04"/>
       <body name="thigh" pos="0 0.1 0" axisangle="0 1 1 35">
         <joint name="abduction" axis="1 0 0" pos="0 0 0.05"/>
@@ -42,7 +43,7 @@ constexpr const char* kLeg = R"(<mujoco model="leg">
         <geom type="capsule" fromto="0 0 0 0.1 0 -0.4" size="0.03"/>
         <geom type="box" size="0.02 0.03 0.05" pos="0.02 0 -0.1" xyaxes="0 1 0 -1 0.3 0" mass="0.7"/>
         <body name="shin" pos="0.1 0 -0.4" childclass="knee">
-          <joint name="knee" axis="0 1 0" limited="true" range="0 120"/>
+          <joint name="knee" axis="0 1 0" pos="0 0 0.01" ref="20" stiffness="6" springref="10" limited="true" range="0 120"/>
           <geom type="cylinder" size="0.02 0.2" pos="0 0 -0.2" zaxis="0 0.2 1"/>
           <geom type="ellipsoid" size="0.03 0.02 0.04" pos="0 0 -0.35" density="500"/>
           <body name="foot" pos="0 0 -0.4">
@@ -94,6 +95,33 @@ TEST_F(Mjcf, BodiesJointsAndWhatIsLeftOut) {
   EXPECT_EQ(joint_named(leg, "fix_foot").type, JointType::fixed);
   EXPECT_THAT(leg.left_out, testing::Contains(HasSubstr("<actuator> with 2 elements")));
   EXPECT_THAT(leg.left_out, testing::Contains(HasSubstr("ranges of 1 joints")));
+  EXPECT_NEAR(joint_named(leg, "knee").reference, M_PI / 9.0, 1e-15);
+  EXPECT_EQ(joint_named(leg, "knee").stiffness, 6.0);
+  EXPECT_NEAR(joint_named(leg, "knee").rest, M_PI / 18.0, 1e-15);
+}
+
+// A capsule lies on the ground with its ends: spheres about the ends of its axis.
+TEST_F(Mjcf, CapsulesAreTheirEnds) {
+  const Skeleton leg = read(kLeg);
+  ASSERT_EQ(leg.spheres.size(), 3U);  // of the foot one, of the thigh's capsule two
+  EXPECT_EQ(leg.spheres[0].shape, "thigh_capsule");
+  EXPECT_EQ(leg.spheres[0].radius, 0.03);
+  EXPECT_LT((leg.spheres[0].centre - Eigen::Vector3d(0.1, 0.0, -0.4)).norm(), 1e-15);
+  EXPECT_LT(leg.spheres[1].centre.norm(), 1e-15);
+  EXPECT_TRUE(leg.spheres[2].shape.empty());
+  folder_.write("leg.xml", kLeg);
+  const std::string text = "plumbline: model/1\nrobot: leg\nskeleton: leg.xml\nfeet: ";
+  const Model model = read_model(folder_.write("model.yaml", text + "{side: {capsule: thigh_capsule}}\n"),
+                                 effects::Catalogue::all());
+  ASSERT_EQ(model.feet.size(), 2U);
+  EXPECT_EQ(model.feet[1].name, "side_2");
+  EXPECT_EQ(model.feet[1].group, "side");
+  EXPECT_EQ(model.body_index("thigh"), model.feet[1].body);
+  const std::string refusal = test::refusal([&] {
+    read_model(folder_.write("bad.yaml", text + "{side: {capsule: thigh_capsul}}\n"),
+               effects::Catalogue::all());
+  });
+  EXPECT_THAT(refusal, HasSubstr("bad.yaml:4: feet.side.capsule: found \"thigh_capsul\""));
 }
 
 // A capsule is a cylinder and a sphere: in the limits of no radius and no length it becomes them.
@@ -147,8 +175,11 @@ joint_dynamics: take
     mj_fullM(m, M.data(), d->qM);
     EXPECT_LT((plant.mass_matrix() - M).cwiseAbs().maxCoeff(), 1e-9) << "state " << trial;
     Eigen::VectorXd friction = Eigen::VectorXd::Zero(4);
-    const EffectUse& coulomb = model.effects.back();
-    ASSERT_EQ(coulomb.law->declaration().name, "coulomb");
+    const auto dry = std::find_if(model.effects.begin(), model.effects.end(), [](const EffectUse& use) {
+      return use.law->declaration().name == "coulomb";
+    });
+    ASSERT_NE(dry, model.effects.end());
+    const EffectUse& coulomb = *dry;
     friction[3] = -0.3 * std::tanh(v[3] / coulomb.values[1].value);
     const Eigen::VectorXd theirs =
         Eigen::Map<const Eigen::VectorXd>(d->qacc_smooth, 4) + M.ldlt().solve(friction);
@@ -179,6 +210,8 @@ TEST_F(Mjcf, BadFilesAreRefusedInOneLine) {
   EXPECT_THAT(refusal("<worldbody>", "<worldbody><include file='a.xml'/>"),
               HasSubstr("leg.xml:9: include: found an included file"));
   EXPECT_THAT(refusal("</mujoco>", ""), HasSubstr("no XML"));
+  EXPECT_THAT(refusal(R"(0.1 0 -0.4" size="0.03")", R"(0.1 0 -0.4" size="0")"),
+              HasSubstr("a geom of type capsule with 2 sizes"));
 }
 
 }  // namespace

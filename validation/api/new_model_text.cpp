@@ -232,6 +232,14 @@ class ModelWriter {
       write_effect(one, "viscous", "damping", one.joint->damping,
                    force + " s/" + model::position_unit(angular), lines);
       write_effect(one, "coulomb", "level", one.joint->friction, force, lines);
+      write_effect(one, "spring", "stiffness", one.joint->stiffness,
+                   force + "/" + model::position_unit(angular), lines);
+      if (one.joint->stiffness > 0.0 && one.joint->rest != 0.0) {
+        lines << "      rest: "
+              << quantity(one.joint->rest, model::position_unit(angular), "", "source",
+                          file_ + ": rest of the spring of joint " + one.joint->name)
+              << "\n";
+      }
     }
     if (lines.str().empty()) {
       out_ << "# The skeleton states no damping or friction of a joint: none is in the model. `plumbline "
@@ -239,7 +247,8 @@ class ModelWriter {
               "# asks whether the log shows it; `plumbline add viscous --at JOINT` puts it in.\n\n";
       return;
     }
-    out_ << "# What the skeleton states under damping and friction. `check` still says that they stand "
+    out_ << "# What the skeleton states under damping, friction and stiffness. `check` still says that they "
+            "stand "
             "there.\n"
             "effects:\n"
          << lines.str() << "\n";
@@ -251,7 +260,7 @@ class ModelWriter {
       lines << "  - effect: " << effect << "\n    at: " << one.coordinate << "\n    values:\n      "
             << parameter << ": "
             << quantity(value, unit, "50 %", "source",
-                        file_ + ": " + (parameter == std::string("level") ? "friction" : "damping") +
+                        file_ + ": " + (parameter == std::string("level") ? "friction" : parameter) +
                             " of joint " + one.joint->name + "; its uncertainty is assumed")
             << "\n";
     }

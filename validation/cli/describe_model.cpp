@@ -14,15 +14,6 @@ using model::Model;
 using model::Quantity;
 using Rows = std::vector<std::vector<std::string>>;
 
-/// What a force plate or another sensor measures.
-std::string measured_by(const Model& model, const model::Sensor& sensor) {
-  std::string feet;
-  for (const int foot : sensor.feet) {
-    feet += (feet.empty() ? "vertical force on " : ", ") + model.feet[static_cast<std::size_t>(foot)].name;
-  }
-  return sensor.is_force_plate() ? feet : sensor.measures;
-}
-
 std::string kind_of(bool angular) { return angular ? "rotary" : "linear"; }
 
 /// "hip + 0.5 knee"
@@ -114,7 +105,7 @@ void print_sensors(const Model& model) {
   for (const model::Sensor& sensor : model.sensors) {
     const std::string unit = model::reading_unit(model, sensor.name);
     rows.push_back(
-        {sensor.name, measured_by(model, sensor), fmt::format("{:.4g} {}", sensor.resolution, unit),
+        {sensor.name, model::measured_by(model, sensor), fmt::format("{:.4g} {}", sensor.resolution, unit),
          fmt::format("{:.3g} {}", sensor.noise, unit), fmt::format("{:.3g} {}", sensor.floor(), unit)});
   }
   fmt::print("\nSensors:\n\n");

@@ -30,7 +30,8 @@ std::vector<std::string> unseen_coordinates(const Model& model, const Trial& tri
   }
   for (const validation::Measured& channel : trial.measured) {
     const int sensor = model.sensor_index(channel.sensor);
-    if (model.sensors[static_cast<std::size_t>(sensor)].shows_position()) {
+    const model::Sensor& of = model.sensors[static_cast<std::size_t>(sensor)];
+    if (of.shows_position() || of.shows_pose()) {
       rows.emplace_back(model::observe_sensor(plant, sensor).row);
     }
   }

@@ -100,7 +100,7 @@ json sensors_json(const Model& model) {
   json list = json::array();
   for (const model::Sensor& sensor : model.sensors) {
     list.push_back({{"name", sensor.name},
-                    {"measures", sensor.measures},
+                    {"measures", sensor.is_at_point() ? measured_by(model, sensor) : sensor.measures},
                     {"unit", model::reading_unit(model, sensor.name)},
                     {"resolution", sensor.resolution},
                     {"noise", sensor.noise},

@@ -23,13 +23,13 @@ Eigen::MatrixXd positions(model::Plant& plant, const Trial& trial, double cutoff
   plant.outputs(zero.data(), offset.data());
   plant.output_jacobian(zero.data(), slope);
   const auto channels = static_cast<Eigen::Index>(trial.measured.size());
-  Eigen::MatrixXd C(channels, plant.positions());
-  Eigen::MatrixXd y(channels, trial.samples());
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(channels, plant.positions());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(channels, trial.samples());
   for (Eigen::Index c = 0; c < channels; ++c) {
     const Measured& measured = trial.measured[static_cast<std::size_t>(c)];
     for (Eigen::Index s = 0; s < plant.sensors(); ++s) {
       const model::Sensor& sensor = plant.model().sensors[static_cast<std::size_t>(s)];
-      if (sensor.name == measured.sensor) {
+      if (sensor.name == measured.sensor && !sensor.is_at_point()) {
         const double floor = sensor.floor() > 0.0 ? sensor.floor() : 1.0;
         C.row(c) = slope.row(s).head(plant.positions()) / floor;
         y.row(c) = (sensing::low_pass(measured.values, trial.period, bounded(cutoff, trial.period))

@@ -9,12 +9,13 @@
 
 namespace plumbline::validation {
 
-/// Of the position sensors, then of the trial's start, which yields to every sensor.
+/// Of the sensors of positions and poses, then of the trial's start, which yields to every sensor.
 std::vector<model::Observation> start_observations(const model::Plant& plant, const Trial& trial) {
   std::vector<model::Observation> channels;
   for (const Measured& channel : trial.measured) {
     const int sensor = plant.model().sensor_index(channel.sensor);
-    if (plant.model().sensors[static_cast<std::size_t>(sensor)].shows_position()) {
+    const model::Sensor& of = plant.model().sensors[static_cast<std::size_t>(sensor)];
+    if (of.shows_position() || of.shows_pose()) {
       channels.push_back(model::observe_sensor(plant, sensor));
     }
   }
@@ -49,9 +50,10 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   const Eigen::MatrixXd local = local_polynomial(window);
   const Eigen::Index nz = plant_.positions();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.states());
-  x.head(nz) = from_channels_.positions(with_starts(local.row(0).transpose(), false));
+  const Eigen::VectorXd values = with_starts(local.row(0).transpose(), false);
+  x.head(nz) = from_channels_.positions(values);
   x.segment(nz, nz) =
-      from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true), x.head(nz));
+      from_channels_.rates(with_starts(local.row(1).transpose() / trial_.period, true), x.head(nz), values);
   if (!trial_.start.empty()) {
     fall_freely(window, x);
   } else if (trial_.switches.empty() && plant_.meets_ground()) {

@@ -84,10 +84,21 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   }
   for (Eigen::Index k = 0; k < window.count; ++k) {
     const Eigen::Index node = node_of(k);
-    plant_.output_jacobian(states_.col(node).data(), C);
+    const double* command = command_of_reading(window, k);
+    plant_.output_jacobian(states_.col(node).data(), C, command);
     plant_.output_tangent(states_.col(node).data(), ids, steps, D);
     Eigen::MatrixXd slopes = C * S.topRows(C.cols());
     slopes.rightCols(np) += D;
+    if (accelerometers_ && window.count > 1) {
+      if (k == 0) {
+        tangent_at(window, k, node, ids, steps, A, B);
+      }
+      const Eigen::MatrixXd map = plant_.acceleration_map(states_.col(node).data());
+      const Eigen::Index nz = plant_.positions();
+      slopes += map * (A.middleRows(nz, nz) * S);
+      slopes.rightCols(np) += map * B.middleRows(nz, nz);
+    }
+    turn_slopes(out.r, k, slopes);
     if (plates.any()) {
       slopes += forces;  // a sensor's row is zero in one of the two
     }

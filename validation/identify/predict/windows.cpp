@@ -57,13 +57,14 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     sensor_of_channel_.push_back(s);
     const model::Sensor& sensor = plant_.model().sensors[static_cast<std::size_t>(s)];
     floors_[static_cast<Eigen::Index>(c)] = sensor.floor();
-    if (sensor.shows_position()) {
+    if (sensor.shows_position() || sensor.shows_pose()) {
       position_channels_.push_back(static_cast<Eigen::Index>(c));
     }
     const Eigen::VectorXd& values = trial.measured[c].values;
     const double range = values.maxCoeff() - values.minCoeff();
     farthest_[static_cast<Eigen::Index>(c)] = std::max(kRanges * range, kFloors * sensor.floor());
   }
+  find_point_sensors();
   for (const SwitchRecord& record : trial.switches) {
     const model::ContactSwitch* known = model.find_switch(record.name);
     foot_of_switch_.push_back(known == nullptr ? -1 : known->foot);
@@ -98,7 +99,12 @@ void Predictor::measure_motion() {
   }
   motion_.resize(2 * nz, n);
   motion_.topRows(nz) = measured_positions();
-  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true), motion_.topRows(nz));
+  Eigen::MatrixXd values(channels(), n);
+  for (int c = 0; c < channels(); ++c) {
+    values.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
+  }
+  motion_.bottomRows(nz) =
+      from_channels_.rates(with_starts(rates, true), motion_.topRows(nz), with_starts(values, false));
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
@@ -235,7 +241,7 @@ bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::
 
 bool Predictor::has_left(const Window& window, Eigen::Index sample) {
   Eigen::VectorXd y(plant_.sensors());
-  plant_.outputs(states_.col(node_of(sample)).data(), y.data());
+  read_sensors(window, sample, y);
   for (int c = 0; c < channels(); ++c) {
     const auto i = static_cast<std::size_t>(c);
     const double off = trial_.measured[i].values[window.first + sample] - y[sensor_of_channel_[i]];
@@ -248,7 +254,7 @@ bool Predictor::has_left(const Window& window, Eigen::Index sample) {
 
 double Predictor::square_of_sample(const Window& window, Eigen::Index sample) {
   Eigen::VectorXd y(plant_.sensors());
-  plant_.outputs(states_.col(node_of(sample)).data(), y.data());
+  read_sensors(window, sample, y);
   double square = 0.0;
   for (int c = 0; c < channels(); ++c) {
     const auto i = static_cast<std::size_t>(c);
@@ -300,7 +306,7 @@ Eigen::MatrixXd Predictor::predicted(const Window& window) {
       predicted.row(k) = predicted.row(held_from_);
       continue;
     }
-    plant_.outputs(states_.col(node_of(k)).data(), y.data());
+    read_sensors(window, k, y);
     average_plates(k, plates, y);
     for (int c = 0; c < channels(); ++c) {
       predicted(k, c) = y[sensor_of_channel_[static_cast<std::size_t>(c)]];

@@ -207,6 +207,10 @@ class Predictor {
   void tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
                   const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
                   Eigen::MatrixXd& A, Eigen::MatrixXd& B);
+  void read_sensors(const Window& window, Eigen::Index sample, Eigen::VectorXd& y);
+  const double* command_of_reading(const Window& window, Eigen::Index sample);
+  void turn_slopes(const Eigen::VectorXd& residual, Eigen::Index sample, Eigen::MatrixXd& slopes) const;
+  void find_point_sensors();
   Eigen::MatrixXd local_polynomial(const Window& window) const;
   Eigen::MatrixXd with_starts(const Eigen::MatrixXd& channels, bool rates) const;
   void fall_freely(const Window& window, Eigen::VectorXd& x);
@@ -221,11 +225,14 @@ class Predictor {
   PredictOptions options_;
   model::Plant plant_;
   std::vector<int> sensor_of_channel_;
-  std::vector<Eigen::Index> position_channels_;  // those that show positions
+  std::vector<Eigen::Index> position_channels_;  // those that show positions or poses
+  std::vector<int> orientation_channels_;        // the first of the three of each orientation
+  bool accelerometers_ = false;
   Eigen::VectorXd floors_;
   model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;
   std::unique_ptr<integrate::HeldCommands> commands_;
+  Eigen::VectorXd reading_command_;  // of the last reading
   std::vector<int> foot_of_switch_;
   // Of the last run: states x nodes; a node is a sample or, with a ground and where a force jumps, a point
   // between two.

@@ -1,6 +1,7 @@
 #include "validation/identify/trial/trial.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include "validation/identify/trial/sampling.h"
 #include "validation/identify/trial/trial_data.h"
 #include "validation/identify/trial/trial_file.h"
+#include "validation/identify/trial/trial_points.h"
 
 namespace plumbline::validation {
 namespace {
@@ -109,7 +111,27 @@ class TrialReader {
     return signal;
   }
 
+  /// As rotation vectors that go on past half a turn, so that they can be interpolated.
+  void read_orientation(const MeasuredUse& use) {
+    std::array<Eigen::VectorXd, 4> parts;
+    std::string columns;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i] = rows_of_column(use.quaternion[i], false).values;
+      columns += (i > 0 ? " " : "") + use.quaternion[i].name;
+    }
+    const Eigen::Matrix3Xd turns = rotation_vectors(parts, log_.table.file, use.quaternion.front().name);
+    for (int axis = 0; axis < 3; ++axis) {
+      trial_.measured.push_back({use.sensor + "_" + "xyz"[axis], columns, "1",
+                                 grid_.interpolated(turns.row(axis).transpose()), use.resolution, use.noise,
+                                 0.0});
+    }
+  }
+
   void read_measured(const MeasuredUse& use) {
+    if (!use.quaternion.empty()) {
+      read_orientation(use);
+      return;
+    }
     const bool is_switch = model_.find_switch(use.sensor) != nullptr;
     Signal signal = rows_of_column(use.column, is_switch);
     if (is_switch) {
@@ -252,6 +274,9 @@ LogQuestion question_of(TrialFile file, const model::Model& model) {
     }
   });
   for (const MeasuredUse& use : file.measured) {
+    for (const ColumnUse& column : use.quaternion) {
+      question.held.erase(column.name);
+    }
     if (model.find_switch(use.sensor) == nullptr) {
       question.held.erase(use.column.name);
     }

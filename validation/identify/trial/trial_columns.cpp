@@ -34,6 +34,24 @@ void check_sensor(const YamlNode& node, const std::string& name, const Model& mo
   }
 }
 
+ColumnUse read_named_column(const YamlNode& node, const YamlNode& name, const std::string& expected_unit,
+                            const std::string& owner) {
+  ColumnUse use;
+  use.name = name.text();
+  if (const auto topic = node.find("topic")) {
+    use.name = topic->text() + "." + use.name;
+    use.has_topic = true;
+  }
+  use.place = name.place();
+  use.expected_unit = expected_unit;
+  use.owner = owner;
+  if (const auto unit = node.find("unit")) {
+    use.unit = unit->text();
+    unit_factor(use.unit, expected_unit, owner, unit->place());  // refuses a wrong one here
+  }
+  return use;
+}
+
 ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, const std::string& owner,
                       const std::vector<std::string>& further_keys) {
   if (!node.is_map()) {
@@ -42,21 +60,22 @@ ColumnUse read_column(const YamlNode& node, const std::string& expected_unit, co
   std::vector<std::string> keys{"topic", "column", "unit", "scale", "offset"};
   keys.insert(keys.end(), further_keys.begin(), further_keys.end());
   node.allow_keys(keys);
-  ColumnUse use;
-  use.name = node.at("column").text();
-  if (const auto topic = node.find("topic")) {
-    use.name = topic->text() + "." + use.name;
-    use.has_topic = true;
-  }
-  use.place = node.at("column").place();
-  use.expected_unit = expected_unit;
-  use.owner = owner;
-  if (const auto unit = node.find("unit")) {
-    use.unit = unit->text();
-    unit_factor(use.unit, expected_unit, owner, unit->place());  // refuses a wrong one here
-  }
+  ColumnUse use = read_named_column(node, node.at("column"), expected_unit, owner);
   read_scale(node, expected_unit, owner, use);
   return use;
+}
+
+std::optional<double> read_not_negative(const YamlNode& node, const std::string& key, const std::string& unit,
+                                        const std::string& owner) {
+  const auto given = node.find(key);
+  if (!given) {
+    return std::nullopt;
+  }
+  const double value = read_physical(*given, unit, owner);
+  if (value < 0.0) {
+    given->refuse("a value below zero", "zero or more");
+  }
+  return value;
 }
 
 void read_wrap(const YamlNode& node, const std::string& expected_unit, const std::string& owner,

@@ -26,6 +26,14 @@ void check_sensor(const model::YamlNode& node, const std::string& name, const mo
 ColumnUse read_column(const model::YamlNode& node, const std::string& expected_unit, const std::string& owner,
                       const std::vector<std::string>& further_keys = {});
 
+/// The same without scale and offset, for an entry that names several columns.
+ColumnUse read_named_column(const model::YamlNode& node, const model::YamlNode& name,
+                            const std::string& expected_unit, const std::string& owner);
+
+/// A quantity of zero or more; none where the key is absent.
+std::optional<double> read_not_negative(const model::YamlNode& node, const std::string& key,
+                                        const std::string& unit, const std::string& owner);
+
 /// `unwrap`: true for an angle, or after what the column wraps around.
 void read_wrap(const model::YamlNode& node, const std::string& expected_unit, const std::string& owner,
                ColumnUse& use);

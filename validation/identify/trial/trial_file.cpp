@@ -14,6 +14,7 @@
 #include "validation/identify/trial/physical_number.h"
 #include "validation/identify/trial/trial_columns.h"
 #include "validation/identify/trial/trial_controllers.h"
+#include "validation/identify/trial/trial_points.h"
 
 namespace plumbline::validation {
 namespace {
@@ -55,19 +56,6 @@ Section read_section(const YamlNode& node) {
   return section;
 }
 
-std::optional<double> read_not_negative(const YamlNode& node, const std::string& key, const std::string& unit,
-                                        const std::string& owner) {
-  const auto given = node.find(key);
-  if (!given) {
-    return std::nullopt;
-  }
-  const double value = read_physical(*given, unit, owner);
-  if (value < 0.0) {
-    given->refuse("a value below zero", "zero or more");
-  }
-  return value;
-}
-
 /// One section or a list of them, in the order of time.
 std::vector<Section> read_sections(const YamlNode& node) {
   if (node.is_map()) {
@@ -100,6 +88,10 @@ MeasuredUse read_switch(const YamlNode& node, const std::string& name) {
 MeasuredUse read_sensor(const YamlNode& node, const std::string& name, const Model& model) {
   check_measured(node, name, model);
   const std::string unit = model::reading_unit(model, name);
+  const std::string& whole = model.find_sensor(name)->group;
+  if (model.find_sensor(name)->reading == model::PointReading::orientation) {
+    node.refuse("a component of an orientation", "all of it: " + whole + ": {columns: [w, x, y, z]}");
+  }
   const bool plate = model.find_sensor(name)->is_force_plate();
   const std::string owner = (plate ? "force plate " : "sensor ") + name;
   std::vector<std::string> keys{"resolution", "noise", "offset_uncertainty", "unwrap"};
@@ -128,6 +120,11 @@ std::vector<MeasuredUse> read_measured(const YamlNode& node, const Model& model)
   std::vector<MeasuredUse> uses;
   bool any_sensor = false;
   for (const auto& [name, entry] : at_least_one(node, "sensor")) {
+    if (const model::Sensor* point = point_sensor(model, name)) {
+      read_point(entry, *point, model, uses);
+      any_sensor = true;
+      continue;
+    }
     const bool is_switch = model.find_switch(name) != nullptr;
     uses.push_back(is_switch ? read_switch(entry, name) : read_sensor(entry, name, model));
     any_sensor = any_sensor || !is_switch;
@@ -286,7 +283,10 @@ void refuse_second_use(const ColumnUse& use, std::set<std::string>& taken) {
 void check_columns_differ(const TrialFile& file) {
   std::set<std::string> taken{file.time.name};
   for (const MeasuredUse& use : file.measured) {
-    if (!use.above) {  // a switch may be read off a force that is measured, too
+    for (const ColumnUse& column : use.quaternion) {
+      refuse_second_use(column, taken);
+    }
+    if (!use.above && use.quaternion.empty()) {  // a switch may be read off a force that is measured, too
       refuse_second_use(use.column, taken);
     }
   }
@@ -312,7 +312,10 @@ void for_each_column(TrialFile& file, const std::function<void(ColumnUse&)>& vis
   };
   visit(file.time);
   for (MeasuredUse& use : file.measured) {
-    visit(use.column);
+    std::for_each(use.quaternion.begin(), use.quaternion.end(), visit);
+    if (use.quaternion.empty()) {
+      visit(use.column);
+    }
   }
   for (CommandUse& use : file.commands) {
     visit(use.column);

@@ -41,6 +41,9 @@ struct MeasuredUse {
   std::optional<double> resolution{};  ///< of this record in place of the model's, SI
   std::optional<double> noise{};
   double offset_uncertainty = 0.0;  ///< SI
+  /// Of an orientation, instead of `column`: those of the quaternion, w x y z. `sensor` names all three
+  /// components.
+  std::vector<ColumnUse> quaternion{};
 };
 struct CommandUse {
   std::string motor;

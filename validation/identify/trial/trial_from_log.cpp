@@ -198,10 +198,18 @@ class Writer {
       all.push_back({motor.name, motor.command_unit, ColumnRole::command});
     }
     for (const model::Sensor& sensor : model_->sensors) {
+      if (sensor.reading == model::PointReading::orientation) {
+        continue;  // has a quaternion's four columns
+      }
+      if (sensor.reading == model::PointReading::accelerometer) {
+        all.push_back({sensor.name, model::reading_unit(*model_, sensor.name), ColumnRole::other});
+        continue;
+      }
       all.push_back({sensor.name, model::reading_unit(*model_, sensor.name),
                      sensor.is_force_plate() ? ColumnRole::force
-                     : sensor.rate           ? ColumnRole::rate
-                                             : ColumnRole::position});
+                     : sensor.rate || sensor.reading == model::PointReading::gyroscope
+                         ? ColumnRole::rate
+                         : ColumnRole::position});
     }
     for (const model::ContactSwitch& contact : model_->switches) {
       all.push_back({contact.name, "1", ColumnRole::contact});
@@ -325,8 +333,50 @@ class Writer {
     }
   }
 
+  /// Names of four columns that differ in their last letter alone, w x y z; empty: there are none.
+  std::vector<std::string> quaternion_columns() const {
+    const auto named = [&](const std::string& name) {
+      return std::any_of(look_.columns.begin(), look_.columns.end(),
+                         [&](const ColumnLook& one) { return one.name == name && one.text.empty(); });
+    };
+    for (const ColumnLook& column : look_.columns) {
+      for (const char* letters : {"wxyz", "WXYZ", "0123"}) {
+        if (column.name.empty() || column.name.back() != letters[0]) {
+          continue;
+        }
+        const std::string stem = column.name.substr(0, column.name.size() - 1);
+        const std::vector<std::string> all{column.name, stem + letters[1], stem + letters[2],
+                                           stem + letters[3]};
+        if (std::all_of(all.begin(), all.end(), named)) {
+          return all;
+        }
+      }
+    }
+    return {};
+  }
+
+  void write_orientations() {
+    for (const model::Sensor& sensor : model_ == nullptr ? std::vector<model::Sensor>{} : model_->sensors) {
+      if (sensor.reading != model::PointReading::orientation || sensor.axis != 0) {
+        continue;
+      }
+      const std::vector<std::string> columns = quaternion_columns();
+      if (columns.empty()) {
+        out_ << "  # " << sensor.group
+             << ": {columns: [w, x, y, z], unit: \"1\"}   # no four look like a quaternion\n";
+        continue;
+      }
+      out_ << "  " << sensor.group << ": {columns: [";
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        out_ << (i > 0 ? ", " : "") << yaml_text(columns[i]);
+      }
+      out_ << "], unit: \"1\"}\n";
+    }
+  }
+
   void write_measured() {
     out_ << "measured:                 # what was measured: sensor of the model -> column\n";
+    write_orientations();
     for (const Choice& choice : chosen_) {
       if (choice.role != ColumnRole::command) {
         write_choice(choice);

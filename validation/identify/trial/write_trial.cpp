@@ -6,6 +6,7 @@
 
 #include "simulator/model/effect_list.h"
 #include "simulator/model/kinds.h"
+#include "simulator/model/rotation_vector.h"
 #include "simulator/trace/number_text.h"
 #include "simulator/trace/table.h"
 #include "simulator/trace/units.h"
@@ -84,11 +85,30 @@ class TrialWriter {
     out_ << YAML::EndMap;
   }
 
-  void write_sensor(const Measured& measured) {
-    const std::string unit = model::reading_unit(model_, measured.sensor);
-    out_ << YAML::Key << measured.sensor << YAML::Value;
-    begin_column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
-                 or_else(measured.unit, unit), measured.values);
+  /// As a quaternion w x y z in four columns.
+  void write_orientation(const std::string& name, std::size_t first) {
+    Eigen::MatrixX4d q(trial_.samples(), 4);
+    for (Eigen::Index k = 0; k < q.rows(); ++k) {
+      Eigen::Vector3d r;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        r[static_cast<Eigen::Index>(axis)] = trial_.measured[first + axis].values[k];
+      }
+      const Eigen::Quaterniond turn(model::rotation_of(r));
+      q.row(k) << turn.w(), turn.x(), turn.y(), turn.z();
+    }
+    out_ << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "columns"
+         << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (int i = 0; i < 4; ++i) {
+      const std::string column = name + "_" + "wxyz"[i];
+      table_.columns.push_back({column, "1", q.col(i)});
+      out_ << column;
+    }
+    out_ << YAML::EndSeq;
+    floors(trial_.measured[first], "rad");
+    out_ << YAML::EndMap;
+  }
+
+  void floors(const Measured& measured, const std::string& unit) {
     if (measured.resolution) {
       quantity("resolution", *measured.resolution, unit, "");
     }
@@ -98,6 +118,14 @@ class TrialWriter {
     if (measured.offset_uncertainty > 0.0) {
       quantity("offset_uncertainty", measured.offset_uncertainty, unit, "");
     }
+  }
+
+  void write_sensor(const Measured& measured) {
+    const std::string unit = model::reading_unit(model_, measured.sensor);
+    out_ << YAML::Key << measured.sensor << YAML::Value;
+    begin_column(or_else(measured.column, model::reading_column(*model_.find_sensor(measured.sensor))),
+                 or_else(measured.unit, unit), measured.values);
+    floors(measured, unit);
     out_ << YAML::EndMap;
   }
 
@@ -141,8 +169,13 @@ class TrialWriter {
 
   void write_measured() {
     out_ << YAML::Key << "measured" << YAML::Value << YAML::BeginMap;
-    for (const Measured& measured : trial_.measured) {
-      write_sensor(measured);
+    for (std::size_t c = 0; c < trial_.measured.size(); ++c) {
+      const model::Sensor& sensor = *model_.find_sensor(trial_.measured[c].sensor);
+      if (sensor.reading != model::PointReading::orientation) {
+        write_sensor(trial_.measured[c]);
+      } else if (sensor.axis == 0) {
+        write_orientation(sensor.group, c);
+      }
     }
     for (const SwitchRecord& record : trial_.switches) {
       out_ << YAML::Key << record.name << YAML::Value;

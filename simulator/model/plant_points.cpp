@@ -1,0 +1,138 @@
+// What is measured at points of links, and how it changes with the state.
+#include <algorithm>
+
+#include "simulator/model/plant.h"
+#include "simulator/model/point_sensors.h"
+
+namespace plumbline::model {
+namespace {
+
+/// Central differences of the velocities' own part: smooth, of the size of the positions and speeds.
+constexpr double kStep = 1e-5;
+
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+}  // namespace
+
+int Plant::tree_body_of_sensor(int sensor) const {
+  return structure_.mechanism->tree_body(model_.sensors[static_cast<std::size_t>(sensor)].body);
+}
+
+void Plant::place_point_sensor(int sensor) {
+  output_map_.row(sensor).setZero();
+  output_offset_[sensor] = 0.0;
+  points_.push_back({sensor, tree_body_of_sensor(sensor)});
+}
+
+Eigen::VectorXd Plant::accelerations_at(const double* x, const double* command) {
+  Eigen::VectorXd acceleration;
+  if (model_.has(PointReading::accelerometer)) {
+    const std::vector<double> none(static_cast<std::size_t>(motors()), 0.0);
+    Eigen::VectorXd xdot(nx_);
+    rate(x, command != nullptr ? command : none.data(), xdot.data());
+    acceleration = S_tree_ * xdot.segment(nz_, nz_);
+  }
+  return acceleration;
+}
+
+// One after the other: the three components of a sensor share what is computed for the first.
+void Plant::read_points(const double* x, const Eigen::VectorXd& acceleration, Eigen::VectorXd& readings) {
+  rigid_at(x);
+  Eigen::Vector3d whole = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Sensor& sensor = model_.sensors[static_cast<std::size_t>(points_[i].sensor)];
+    if (i == 0 || sensor.axis == 0) {
+      whole = point_reading(tree(), points_[i].body, sensor, acceleration);
+    }
+    readings[static_cast<Eigen::Index>(i)] = whole[sensor.axis];
+  }
+}
+
+void Plant::point_outputs(const double* x, const double* command, double* y) {
+  if (points_.empty()) {
+    return;
+  }
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(points_.size()));
+  read_points(x, accelerations_at(x, command), readings);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    y[points_[i].sensor] = readings[static_cast<Eigen::Index>(i)];
+  }
+}
+
+Eigen::MatrixXd Plant::acceleration_map(const double* x) {
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(sensors(), nz_);
+  rigid_at(x);
+  for (const PointSlot& slot : points_) {
+    const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
+    if (sensor.reading == PointReading::accelerometer) {
+      map.row(slot.sensor) = point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
+    }
+  }
+  return map;
+}
+
+void Plant::point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C) {
+  if (points_.empty()) {
+    return;
+  }
+  rigid_at(x);
+  for (const PointSlot& slot : points_) {
+    const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
+    if (sensor.reading != PointReading::accelerometer) {
+      C.row(slot.sensor).segment(sensor.shows_pose() ? 0 : nz_, nz_) =
+          point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
+    }
+  }
+  const bool accelerometers = model_.has(PointReading::accelerometer);
+  if (!accelerometers && !model_.has(PointReading::gyroscope)) {
+    return;
+  }
+  const Eigen::VectorXd acceleration = accelerations_at(x, command);
+  Eigen::VectorXd moved = Vector(x, nx_);
+  Eigen::VectorXd up(static_cast<Eigen::Index>(points_.size())), down = up;
+  for (int i = 0; i < (accelerometers ? 2 : 1) * nz_; ++i) {
+    moved[i] = x[i] + kStep;
+    read_points(moved.data(), acceleration, up);
+    moved[i] = x[i] - kStep;
+    read_points(moved.data(), acceleration, down);
+    moved[i] = x[i];
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const Sensor& sensor = model_.sensors[static_cast<std::size_t>(points_[p].sensor)];
+      const auto row = static_cast<Eigen::Index>(p);
+      const bool own = sensor.reading == PointReading::accelerometer ||
+                       (sensor.reading == PointReading::gyroscope && i < nz_);
+      if (own) {
+        C(points_[p].sensor, i) = (up[row] - down[row]) / (2.0 * kStep);
+      }
+    }
+  }
+  rigid_at(x);
+}
+
+// An accelerometer feels where gravity points, beside what that does to the motion.
+void Plant::tilt_tangent(const double* x, const std::vector<ParameterId>& parameters,
+                         const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
+  if (!model_.has(PointReading::accelerometer)) {
+    return;
+  }
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const effects::Law& law = *model_.effects[static_cast<std::size_t>(parameters[k].effect)].law;
+    const bool structure = dynamic_cast<const effects::StructureLaw*>(&law) != nullptr;
+    if (!structure || !law.sits_at(effects::Place::world)) {
+      continue;
+    }
+    const auto column = static_cast<Eigen::Index>(k);
+    const Variant& variant = variant_of(parameters[k], steps[column]);
+    rigid_at(x);
+    const Eigen::Vector3d change =
+        (variant.structure.mechanism->tree().gravity() - tree().gravity()) / variant.step;
+    for (const PointSlot& slot : points_) {
+      const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
+      if (sensor.reading == PointReading::accelerometer) {
+        D(slot.sensor, column) -= (tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).dot(change);
+      }
+    }
+  }
+}
+
+}  // namespace plumbline::model
