@@ -46,7 +46,9 @@ contact::Terrain uneven(const contact::Terrain& flat, const RequiredTerrain& ter
   // To either side of the start, as far as a hundred steps.
   for (int side : {-1, 1}) {
     for (int k = 1; k <= 100; ++k) {
-      const double near = terrain.level + (k - 1.0) * terrain.length, far = near + terrain.length;
+      // By the same sum at either neighbour, or the edges would overlap by rounding.
+      const double near = terrain.level + (k - 1.0) * terrain.length,
+                   far = terrain.level + k * terrain.length;
       platforms.push_back({side > 0 ? near : -far, side > 0 ? far : -near, flat.floor() + height(random)});
     }
   }
