@@ -19,8 +19,10 @@ struct Mujoco {
     if (m == nullptr) {
       throw std::runtime_error(error);
     }
-    // Contacts, limits, dry friction and equalities are soft constraints there, and others here.
-    m->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_EQUALITY;
+    // Contacts, limits, dry friction and equalities are soft constraints there, and others here; a <position>
+    // actuator pulls to zero where nothing is commanded.
+    m->opt.disableflags |=
+        mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_EQUALITY | mjDSBL_ACTUATION;
     m->opt.enableflags |= mjENBL_ENERGY;
     d = mj_makeData(m);
   }
