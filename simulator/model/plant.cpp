@@ -40,8 +40,8 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   }
   reduce(locks);
   place_effects();
-  place_sensors();
   structure_ = make_structure();
+  place_sensors();  // points of links ask the mechanism
   find_feet();
   check_mass_matrix();
   make_loops();

@@ -71,9 +71,17 @@ void read_point_sensor(const std::string& name, const YamlNode& entry, Model& mo
   if (const auto turn = kind.has_axes ? entry.find("turn") : std::nullopt) {
     sensor.mounting = turned(*turn);
   }
+  // The sensor's own source stands for what states none.
   const auto read = [&](const char* key, double& value) {
-    if (const auto given = entry.find(key)) {
+    const auto given = entry.find(key);
+    if (given && (given->has("source") || given->has("assumed"))) {
       value = read_quantity(*given, {kind.unit, QuantityRule::Sign::not_negative, false, {}}).value;
+    } else if (given) {
+      given->allow_keys({"value", "unit"});
+      value = factor_of(given->at("unit"), kind.unit) * given->at("value").number();
+      if (value < 0.0) {
+        given->at("value").refuse(given->at("value").text(), "a number that is not negative");
+      }
     }
   };
   read("resolution", sensor.resolution);

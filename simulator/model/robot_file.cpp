@@ -98,8 +98,8 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   read_section(root, "motors", read_motors, model);
   check_names(root, model);
   read_section(root, "ratios", read_ratios, model);
-  tie_mimics(root, model);
   check_ratios(root, model);
+  tie_mimics(root, model);
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "feet", read_feet, model);
   model.loops = model.skeleton.loops;

@@ -321,11 +321,11 @@ void tie_mimics(const SkeletonXml& xml, Skeleton& skeleton) {
       continue;
     }
     const auto master = std::find_if(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& one) {
-      return one.name == mimic->joint && one.type != JointType::fixed && &one != &joint;
+      return one.name == mimic->joint && one.type != JointType::fixed && xml.mimic(one.name) == nullptr;
     });
     if (master == skeleton.joints.end()) {
       xml.refuse({joint.name + " mimic", xml.line_of_joint(joint.name)}, "\"" + mimic->joint + "\"",
-                 "the name of another moving joint");
+                 "the name of a moving joint that mimics none");
     }
     const Eigen::Vector3d axis = joint.axis.normalized();
     if (joint.type == JointType::revolute) {

@@ -106,8 +106,8 @@ TEST_F(Mjcf, CapsulesAreTheirEnds) {
   ASSERT_EQ(leg.spheres.size(), 3U);  // of the foot one, of the thigh's capsule two
   EXPECT_EQ(leg.spheres[0].shape, "thigh_capsule");
   EXPECT_EQ(leg.spheres[0].radius, 0.03);
-  EXPECT_LT((leg.spheres[0].centre - Eigen::Vector3d(0.1, 0.0, -0.4)).norm(), 1e-15);
-  EXPECT_LT(leg.spheres[1].centre.norm(), 1e-15);
+  EXPECT_LT((leg.spheres[0].centre - Eigen::Vector3d(0.1, 0.0, -0.4)).norm(), 1e-14);
+  EXPECT_LT(leg.spheres[1].centre.norm(), 1e-14);
   EXPECT_TRUE(leg.spheres[2].shape.empty());
   folder_.write("leg.xml", kLeg);
   const std::string text = "plumbline: model/1\nrobot: leg\nskeleton: leg.xml\nfeet: ";

@@ -190,7 +190,7 @@ TEST(ModelTest, AJointThatMimicsAnotherGoesWithIt) {
   ASSERT_EQ(model.ratios.size(), 1U);
   EXPECT_EQ(model.ratios[0].motor, "to_b");
   EXPECT_DOUBLE_EQ(model.ratios[0].to[0].factor, -0.25) << "x is twice the joint";
-  EXPECT_NEAR(model.skeleton.joints[1].X_PJ.translation().x(), 0.2, 1e-12) << "the offset moves its zero";
+  EXPECT_NEAR(model.skeleton.joints.back().X_PJ.translation().x(), 0.2, 1e-12) << "the offset moves its zero";
   const Plant plant(model, {});
   EXPECT_EQ(plant.positions(), 1);
   const std::string none = folder.write("none.yaml", head + "coordinates:\n  y: {of: {to_b: 1}}\n");

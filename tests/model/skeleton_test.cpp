@@ -206,7 +206,7 @@ TEST_F(SkeletonTest, RefusesBadSkeletonsInOneLine) {
       {sdf, "</model>", "", 3, "", "text that is no XML", "a whole"},
       {urdf, "type=\"continuous\"", "type=\"ball\"", 15, "turn", "joint type \"ball\"", "floating or planar"},
       {urdf, "<axis xyz=\"0 2 0\"/>", "<axis xyz=\"0 2 0\"/><mimic joint=\"x\"/>", 15, "turn mimic", "\"x\"",
-       "another moving joint"},
+       "a moving joint that mimics none"},
       {urdf, "<mass value=\"2\"/>", "<mass value=\"-2\"/>", 6, "arm mass", "-2 kg", "above zero"},
       {urdf, "<mass value=\"2\"/>", "<mass/>", 6, "arm mass", "no value", "a number"},
       {urdf, "iyz=\"0\"", "", 7, "arm iyz", "no value", "a number"},

@@ -85,13 +85,16 @@ TEST_F(PointPrediction, TheTruthLeavesNothing) {
   Predictor predictor(model_, trial, options);
   for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{40}}) {
     const Window window{0, first, 60, {}, false};
-    const Eigen::VectorXd x0 = predictor.initial_state(window);
-    // The start is read off the sensors of pose, by differences over some samples.
-    EXPECT_LT(predictor.residual(window, x0).cwiseAbs().maxCoeff(), 5.0);
-    const Linearisation at = predictor.linearise(window, x0, {});
-    const Eigen::VectorXd better = x0 + at.Jx.colPivHouseholderQr().solve(at.r);
-    EXPECT_LT(predictor.residual(window, better).cwiseAbs().maxCoeff(),
-              predictor.residual(window, x0).cwiseAbs().maxCoeff());
+    // The start is read off the sensors of pose by a quadratic over 25 samples, which misses some of the
+    // tail's swing.
+    Eigen::VectorXd x0 = predictor.initial_state(window);
+    EXPECT_LT(predictor.residual(window, x0).cwiseAbs().maxCoeff(), 500.0);
+    constexpr int kSteps = 6;
+    for (int step = 0; step < kSteps; ++step) {
+      const Linearisation at = predictor.linearise(window, x0, {});
+      x0 += at.Jx.colPivHouseholderQr().solve(at.r);
+    }
+    EXPECT_LT(predictor.residual(window, x0).cwiseAbs().maxCoeff(), 0.01);
   }
 }
 
