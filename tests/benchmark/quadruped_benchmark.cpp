@@ -103,7 +103,7 @@ class SimbodyPeer {
 
   /// Of the joints behind the base; positions and rates in the chart's six coordinates and the hinges.
   Eigen::VectorXd accelerations(const Eigen::VectorXd& x) {
-    const Eigen::Index n = x.size() / 2;
+    const Eigen::Index n = state_.getNU();  // behind both n stand the bristles of the feet
     const Eigen::Matrix3d R = test::rotation_of(x.segment<3>(3));
     const Eigen::Quaterniond turn(R);
     const Vector3d w = R * test::rates_map(x.segment<3>(3)) * x.segment<3>(n + 3);  // in the world
@@ -156,7 +156,7 @@ class MujocoPeer {
   MujocoPeer& operator=(const MujocoPeer&) = delete;
 
   void forward(const Eigen::VectorXd& x) const {
-    const Eigen::Index n = x.size() / 2;
+    const Eigen::Index n = m->nv;
     const Eigen::Quaterniond turn(test::rotation_of(x.segment<3>(3)));
     const Vector3d w = test::rates_map(x.segment<3>(3)) * x.segment<3>(n + 3);
     for (int i = 0; i < 3; ++i) {
