@@ -63,6 +63,22 @@ TEST(FrictionEverywhere, IsFoundAtOnce) {
   EXPECT_LT(group->stage.estimate.scores.train, 1.1);
 }
 
+// A motor that gives a fiftieth of what is stated is no motor of this robot: such a gain is no member.
+TEST(FrictionEverywhere, HasNoGainAtItsLimit) {
+  const Data data = bench_twins({"coulomb@mLA:level=0.05", "viscous@mLA:damping=0.004",
+                                 "torque_constant_error@mLS:scale=0.02"})
+                        .thinned(8);
+  const Policy policy;
+  const Tried tried = screen_candidates(
+      as_given(bench(), data), some_laws({"coulomb", "viscous", "torque_constant_error"}), {}, data, silent);
+  const std::optional<Group> group = standard_effects(tried, data, policy, silent);
+  if (group) {
+    for (const Candidate& candidate : group->candidates) {
+      EXPECT_NE(candidate.label(), "torque_constant_error@mLS");
+    }
+  }
+}
+
 // Hundreds of floors away it is asked before any single effect is refitted: by what these promise.
 TEST(FrictionEverywhere, ComesFirstWhereNoSingleEffectPromisesAsMuch) {
   const Data data = friction_at_both_motors();

@@ -11,11 +11,6 @@
 namespace plumbline::validation {
 namespace {
 
-bool on_bound(const FreeParameter& parameter, double value) {
-  const double reach = 1e-9 * std::max(parameter.typical, std::abs(value));  // the search stops on a bound
-  return value - parameter.lower < reach || parameter.upper - value < reach;
-}
-
 /// The parameters of one effect and their fitted values.
 struct OwnPart {
   std::vector<FreeParameter> parameters;
@@ -159,6 +154,11 @@ std::string unless_unsteady(const Check& check) {
 }
 
 }  // namespace
+
+bool on_bound(const FreeParameter& parameter, double value) {
+  const double reach = 1e-9 * std::max(parameter.typical, std::abs(value));  // the search stops on a bound
+  return value - parameter.lower < reach || parameter.upper - value < reach;
+}
 
 std::string unphysical(const Refit& refit) {
   for (const int effect : refit.added) {

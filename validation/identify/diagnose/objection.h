@@ -7,6 +7,9 @@
 
 namespace plumbline::validation {
 
+/// Where the search ended on a bound of this parameter.
+bool on_bound(const FreeParameter& parameter, double value);
+
 /// A parameter of an added effect that is on its bound, if it is the only one, the stiffness of a drive, the
 /// level of a dry friction, or what the robot cannot be beyond (keep_physical); empty when there is none.
 std::string unphysical(const Refit& refit);

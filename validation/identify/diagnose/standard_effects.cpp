@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "validation/identify/diagnose/judged.h"
+#include "validation/identify/diagnose/objection.h"
 #include "validation/identify/diagnose/resample.h"
 #include "validation/identify/predict/deviations.h"
 
@@ -91,7 +92,8 @@ Stage fitted(Stage all, const Data& data) {
   return all;
 }
 
-/// Those of the last effects whose strength the data tell from nothing by two deviations.
+/// Those of the last effects whose strength the data tell from nothing by two deviations, and that are not
+/// where the robot cannot be beyond.
 std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& candidates, const Data& data,
                             const Policy& policy) {
   PredictorPool pool(all.model, data);
@@ -99,6 +101,7 @@ std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& cand
       precision_of(pool, data.windows_of(Role::train), all.parameters, all.estimate).deviations;
   const int first = static_cast<int>(all.model.effects.size() - candidates.size());
   std::vector<bool> is_told(candidates.size(), false);
+  std::vector<bool> is_at_limit(candidates.size(), false);
   for (std::size_t p = 0; p < all.parameters.size(); ++p) {
     const FreeParameter& parameter = all.parameters[p];
     const auto i = static_cast<Eigen::Index>(p);
@@ -107,11 +110,13 @@ std::vector<Candidate> told(const Stage& all, const std::vector<Candidate>& cand
       const double null =
           candidates[candidate].law->null_values()[static_cast<std::size_t>(parameter.id.parameter)];
       is_told[candidate] = std::abs(all.estimate.theta[i] - null) > policy.told * deviations[i];
+      is_at_limit[candidate] =
+          is_at_limit[candidate] || (parameter.physical && on_bound(parameter, all.estimate.theta[i]));
     }
   }
   std::vector<Candidate> kept;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (is_told[c]) {
+    if (is_told[c] && !is_at_limit[c]) {
       kept.push_back(candidates[c]);
     }
   }
@@ -125,18 +130,19 @@ Refit as_refit(const Stage& stage) {
   return refit;
 }
 
-std::optional<Group> fitted_group(const Tried& tried, const std::vector<Candidate>& candidates,
-                                  const Data& data, const Policy& policy) {
+/// All of them, and without those that the data do not tell, until all are told.
+std::optional<Group> fitted_group(const Tried& tried, std::vector<Candidate> candidates, const Data& data,
+                                  const Policy& policy) {
   constexpr std::size_t kLeast = 2;
-  Stage all = fitted(with_all(tried.stage, candidates), data);
-  const std::vector<Candidate> kept = told(all, candidates, data, policy);
-  if (kept.size() < kLeast) {
-    return {};
+  while (candidates.size() >= kLeast) {
+    Stage all = fitted(with_all(tried.stage, candidates), data);
+    std::vector<Candidate> kept = told(all, candidates, data, policy);
+    if (kept.size() == candidates.size()) {
+      return Group{std::move(kept), std::move(all), 0.0};
+    }
+    candidates = std::move(kept);
   }
-  if (kept.size() < candidates.size()) {
-    all = fitted(with_all(tried.stage, kept), data);
-  }
-  return Group{kept, std::move(all), 0.0};
+  return {};
 }
 
 /// Friction alone, or with the drives' constants where these are worth it.
