@@ -136,45 +136,18 @@ class SimbodyPeer {
   SimTK::State state_;
 };
 
-class MujocoPeer {
- public:
-  explicit MujocoPeer(const std::string& file) {
-    char error[500] = "";
-    m = mj_loadXML(file.c_str(), nullptr, error, sizeof error);
-    if (m == nullptr) {
-      throw std::runtime_error(error);
-    }
-    m->opt.disableflags |= mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_PASSIVE | mjDSBL_ACTUATION;
-    std::fill(m->dof_armature, m->dof_armature + m->nv, 0.0);
-    d = mj_makeData(m);
-  }
-  ~MujocoPeer() {
-    mj_deleteData(d);
-    mj_deleteModel(m);
-  }
-  MujocoPeer(const MujocoPeer&) = delete;
-  MujocoPeer& operator=(const MujocoPeer&) = delete;
+/// With the contacts of its plane, without what is left out of all and without the energies.
+void leave_out(const test::Mujoco& mujoco) {
+  mujoco.m->opt.disableflags = mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS | mjDSBL_PASSIVE | mjDSBL_ACTUATION;
+  mujoco.m->opt.enableflags = 0;
+  std::fill(mujoco.m->dof_armature, mujoco.m->dof_armature + mujoco.m->nv, 0.0);
+}
 
-  void forward(const Eigen::VectorXd& x) const {
-    const Eigen::Index n = m->nv;
-    const Eigen::Quaterniond turn(test::rotation_of(x.segment<3>(3)));
-    const Vector3d w = test::rates_map(x.segment<3>(3)) * x.segment<3>(n + 3);
-    for (int i = 0; i < 3; ++i) {
-      d->qpos[i] = x[i];
-      d->qvel[i] = x[n + i];
-      d->qvel[3 + i] = w[i];
-    }
-    const double q[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
-    std::copy(q, q + 4, d->qpos + 3);
-    for (Eigen::Index i = 6; i < n; ++i) {
-      d->qpos[i + 1] = x[i];
-      d->qvel[i] = x[n + i];
-    }
-    mj_forward(m, d);
-  }
-  mjModel* m = nullptr;
-  mjData* d = nullptr;
-};
+void forward(const test::Mujoco& mujoco, const Eigen::VectorXd& x) {
+  const Eigen::Index n = mujoco.m->nv;
+  test::set_state(mujoco, x.head(n), x.segment(n, n));
+  mj_forward(mujoco.m, mujoco.d);
+}
 
 double microseconds(const std::function<void(const Eigen::VectorXd&)>& evaluate,
                     const std::vector<Eigen::VectorXd>& states) {
@@ -193,7 +166,8 @@ void run(const std::string& file) {
   const model::Model model = read(folder);
   model::Plant plant(model, {});
   SimbodyPeer simbody(model.skeleton);
-  const MujocoPeer mujoco(bare);
+  const test::Mujoco mujoco(bare);
+  leave_out(mujoco);
   const int n = plant.positions();
   if (n != mujoco.m->nv || n < 7 || mujoco.m->nkey < 1) {
     throw std::runtime_error("the benchmark wants a floating robot with a keyframe to stand in");
@@ -226,7 +200,7 @@ void run(const std::string& file) {
     free[2] = 3.0;
     Eigen::VectorXd xdot(plant.states());
     plant.rate(free.data(), nullptr, xdot.data());
-    mujoco.forward(free);
+    forward(mujoco, free);
     const Eigen::VectorXd ours = xdot.segment(n + 6, n - 6);
     const Eigen::Map<const Eigen::VectorXd> theirs(mujoco.d->qacc + 6, n - 6);
     const double size = 1.0 + theirs.cwiseAbs().maxCoeff();
@@ -234,7 +208,7 @@ void run(const std::string& file) {
       worst = std::max(worst, (ours - theirs).cwiseAbs().maxCoeff() / size);
     }
     worst = std::max(worst, (ours - simbody.accelerations(free)).cwiseAbs().maxCoeff() / size);
-    mujoco.forward(x);
+    forward(mujoco, x);
     contacts = std::max(contacts, mujoco.d->ncon);
     int pressed = 0;
     for (const model::Touch& touch : plant.touches(x.data())) {
@@ -251,11 +225,11 @@ void run(const std::string& file) {
   double ours = 1e9, theirs = 1e9, simbodys = 1e9, in_air = 1e9, mujoco_air = 1e9;
   for (int round = 0; round < kRounds; ++round) {
     const auto rate = [&](const Eigen::VectorXd& x) { plant.rate(x.data(), nullptr, xdot.data()); };
-    const auto forward = [&](const Eigen::VectorXd& x) { mujoco.forward(x); };
+    const auto mj = [&](const Eigen::VectorXd& x) { forward(mujoco, x); };
     ours = std::min(ours, microseconds(rate, standing));
-    theirs = std::min(theirs, microseconds(forward, standing));
+    theirs = std::min(theirs, microseconds(mj, standing));
     in_air = std::min(in_air, microseconds(rate, flying));
-    mujoco_air = std::min(mujoco_air, microseconds(forward, flying));
+    mujoco_air = std::min(mujoco_air, microseconds(mj, flying));
     simbodys =
         std::min(simbodys, microseconds([&](const Eigen::VectorXd& x) { simbody.accelerations(x); }, flying));
   }
