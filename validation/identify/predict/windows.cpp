@@ -34,6 +34,15 @@ bool remembers_heat(const model::Plant& plant) {
   });
 }
 
+/// Channels x samples.
+Eigen::MatrixXd measured_channels(const Trial& trial) {
+  Eigen::MatrixXd y(static_cast<Eigen::Index>(trial.measured.size()), trial.samples());
+  for (std::size_t c = 0; c < trial.measured.size(); ++c) {
+    y.row(static_cast<Eigen::Index>(c)) = trial.measured[c].values.transpose();
+  }
+  return y;
+}
+
 }  // namespace
 
 void FreeParameter::set(model::Plant& plant, double value) const {
@@ -81,11 +90,7 @@ void Predictor::refresh_commands() {
 }
 
 Eigen::MatrixXd Predictor::measured_positions() const {
-  Eigen::MatrixXd y(channels(), trial_.samples());
-  for (int c = 0; c < channels(); ++c) {
-    y.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
-  }
-  return from_channels_.positions(with_starts(y, false));
+  return from_channels_.positions(with_starts(measured_channels(trial_), false));
 }
 
 void Predictor::measure_motion() {
@@ -99,12 +104,8 @@ void Predictor::measure_motion() {
   }
   motion_.resize(2 * nz, n);
   motion_.topRows(nz) = measured_positions();
-  Eigen::MatrixXd values(channels(), n);
-  for (int c = 0; c < channels(); ++c) {
-    values.row(c) = trial_.measured[static_cast<std::size_t>(c)].values.transpose();
-  }
-  motion_.bottomRows(nz) =
-      from_channels_.rates(with_starts(rates, true), motion_.topRows(nz), with_starts(values, false));
+  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true), motion_.topRows(nz),
+                                                with_starts(measured_channels(trial_), false));
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
