@@ -26,6 +26,8 @@ using measured::positions;
 using measured::without_limits;
 
 constexpr double kEdgePeriods = 2.0;  // of the force cutoff
+constexpr double kFollows = 0.7;      // correlation from which one force follows another
+constexpr double kFactor = 4.0;       // between two forces of one unit at most
 
 /// Acceleration of the independent positions, and its slope with the moving motors' commands.
 class Accelerations {
@@ -104,6 +106,17 @@ CommandGain gain_of(const NeededForce& force) {
   const Eigen::VectorXd by_factor = commanded_core - slope_of(commanded_core, needed_core) * needed_core;
   result.a_rotor_says_more = by_rotor.norm() < by_factor.norm();
   return result;
+}
+
+/// The unit in which the column of this command is declared.
+std::string declared_unit(const model::Model& model, const Command& command) {
+  return command.unit.empty() ? model.find_motor(command.motor)->command_unit : command.unit;
+}
+
+const Command* command_of(const Trial& trial, const std::string& motor) {
+  const auto found = std::find_if(trial.commands.begin(), trial.commands.end(),
+                                  [&](const Command& command) { return command.motor == motor; });
+  return found == trial.commands.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -190,11 +203,6 @@ std::vector<double> force_floors(const model::Model& model, const Trial& trial, 
   return floors;
 }
 
-namespace {
-constexpr double kFollows = 0.7;
-constexpr double kFactor = 4.0;
-}  // namespace
-
 bool CommandGain::follows() const {
   return core_correlation > kFollows && core_gain > 1.0 / kFactor && core_gain < kFactor;
 }
@@ -215,21 +223,6 @@ std::vector<CommandGain> command_gains(const model::Model& model, const Trial& t
   }
   return gains;
 }
-
-namespace {
-
-/// The unit in which the column of this command is declared.
-std::string declared_unit(const model::Model& model, const Command& command) {
-  return command.unit.empty() ? model.find_motor(command.motor)->command_unit : command.unit;
-}
-
-const Command* command_of(const Trial& trial, const std::string& motor) {
-  const auto found = std::find_if(trial.commands.begin(), trial.commands.end(),
-                                  [&](const Command& command) { return command.motor == motor; });
-  return found == trial.commands.end() ? nullptr : &*found;
-}
-
-}  // namespace
 
 void check_command_units(const model::Model& model, const Trial& trial) {
   const std::vector<CommandGain> gains = command_gains(model, trial);
