@@ -34,6 +34,8 @@ struct Inputs {
   bool explain = false;
   bool score = false;
   bool sweep = false;
+  bool take_away = false;
+  Measured measured;
   std::string results, json, csv;
   std::vector<std::string> durations;
 };
@@ -162,6 +164,20 @@ std::set<std::string> reasons(const Inputs& inputs) {
   return all;
 }
 
+int sweep_policy(const std::vector<Case>& cases, const Inputs& inputs) {
+  std::vector<Diagnose> all;
+  if (!inputs.measured.trials.empty()) {
+    all.emplace_back([&](const RunOptions& run) { return run_measured(inputs.measured, run); });
+  } else {
+    for (const Case& one : cases) {
+      all.emplace_back([&one](const RunOptions& run) { return run_case(one, run); });
+    }
+  }
+  fmt::print("{}",
+             sweep_text(inputs.sweep ? sweep(all, inputs.run) : take_away(all, inputs.run), all.size()));
+  return 0;
+}
+
 int run(const Inputs& inputs, work::Workers& workers) {
   const std::vector<Case> cases =
       subset(chosen(inputs.rigs, inputs.only, inputs.run.world), inputs.subset, inputs.run.seed);
@@ -172,7 +188,7 @@ int run(const Inputs& inputs, work::Workers& workers) {
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");
     return 2;
   }
-  if (!workers.is_first() && (inputs.list || inputs.sweep || inputs.score)) {
+  if (!workers.is_first() && (inputs.list || inputs.sweep || inputs.take_away || inputs.score)) {
     return 0;
   }
   if (inputs.list) {
@@ -181,9 +197,8 @@ int run(const Inputs& inputs, work::Workers& workers) {
     }
     return 0;
   }
-  if (inputs.sweep) {
-    fmt::print("{}", sweep_text(sweep(cases, inputs.run), cases.size()));
-    return 0;
+  if (inputs.sweep || inputs.take_away) {
+    return sweep_policy(cases, inputs);
   }
   if (!inputs.run.bare_only && inputs.run.write.empty()) {
     fmt::print("{}\n", table_head());
@@ -261,8 +276,18 @@ int main(int argc, char** argv) {
                "with --lab: the model that is diagnosed states how well these numbers are known")
       ->needs(lab);
   app.add_flag("--explain", inputs.explain, "below each case: the candidates and why they were not accepted");
-  app.add_flag("--sweep", inputs.sweep,
-               "diagnose each case again with half and twice the value of every constant of the policy");
+  CLI::Option* sweep =
+      app.add_flag("--sweep", inputs.sweep,
+                   "diagnose each case again with half and twice the value of every constant of the policy");
+  CLI::Option* take_away =
+      app.add_flag("--take-away", inputs.take_away,
+                   "diagnose each case again with every constant of the policy taken away in turn")
+          ->excludes(sweep);
+  app.add_option("--measured", inputs.measured.trials,
+                 "in place of the cases: these trials of a real machine; with --take-away")
+      ->type_name("TRIAL")
+      ->needs(take_away);
+  app.add_option("--data", inputs.measured.data_folder, "where their recordings are")->type_name("DIR");
   app.add_flag("--timing", inputs.run.timing, "what each diagnosis does, and when, to the standard error");
   app.add_option("--write", inputs.run.write,
                  "diagnose nothing: write the trials of each case into a folder of its own below DIR")

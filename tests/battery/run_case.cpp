@@ -8,6 +8,7 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
+#include <functional>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
@@ -205,17 +206,9 @@ void write(const std::string& folder, const Case& one, const model::Model& bare,
   }
 }
 
-void run(const RunOptions& options, Result& result) {
+void diagnose_all(const model::Model& bare, std::vector<validation::Trial> trials,
+                  const std::vector<model::EffectUse>& hidden, const RunOptions& options, Result& result) {
   const Case& one = result.one;
-  const model::Model bare =
-      model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, model::known_effects());
-  Draw draw(one, options.seed);
-  std::vector<model::EffectUse> hidden;
-  std::vector<validation::Trial> trials = made(options, bare, draw, hidden, result);
-  if (!options.write.empty()) {
-    write(options.write, one, bare, trials);
-    return;
-  }
   validation::Data data(std::move(trials), {});
   data.threads = work::cores();
   data.kept = options.kept;
@@ -233,6 +226,35 @@ void run(const RunOptions& options, Result& result) {
   }
 }
 
+void run(const RunOptions& options, Result& result) {
+  const Case& one = result.one;
+  const model::Model bare =
+      model::read_model(std::string(PLUMBLINE_ROOT) + "/" + robot_of(one).model, model::known_effects());
+  Draw draw(one, options.seed);
+  std::vector<model::EffectUse> hidden;
+  std::vector<validation::Trial> trials = made(options, bare, draw, hidden, result);
+  if (!options.write.empty()) {
+    write(options.write, one, bare, trials);
+    return;
+  }
+  diagnose_all(bare, std::move(trials), hidden, options, result);
+}
+
+Result timed(const Case& one, const std::function<void(Result&)>& work) {
+  Result result;
+  result.one = one;
+  const Clock::time_point start = Clock::now();
+  const std::clock_t processor = std::clock();
+  try {
+    work(result);
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+  result.seconds = seconds_since(start);
+  result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+  return result;
+}
+
 }  // namespace
 
 std::string to_string(World world) {
@@ -245,18 +267,24 @@ bool Recovered::is_inside() const {
 }
 
 Result run_case(const Case& one, const RunOptions& options) {
-  Result result;
-  result.one = one;
-  const Clock::time_point start = Clock::now();
-  const std::clock_t processor = std::clock();
-  try {
-    run(options, result);
-  } catch (const std::exception& error) {
-    result.error = error.what();
-  }
-  result.seconds = seconds_since(start);
-  result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
-  return result;
+  return timed(one, [&](Result& result) { run(options, result); });
+}
+
+Result run_measured(const Measured& measured, const RunOptions& options) {
+  Case one;
+  one.kind = Kind::foreign;
+  one.name = measured.trials.front();
+  return timed(one, [&](Result& result) {
+    const model::Model model =
+        model::read_model(validation::model_of_trial(measured.trials.front()), model::known_effects());
+    validation::TrialOptions how;
+    how.data_folder = measured.data_folder;
+    std::vector<validation::Trial> trials;
+    for (const std::string& path : measured.trials) {
+      trials.push_back(validation::read_trial(path, model, how));
+    }
+    diagnose_all(model, std::move(trials), {}, options, result);
+  });
 }
 
 }  // namespace plumbline::battery

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/battery/cases.h"
 #include "validation/identify/diagnose/diagnose.h"
@@ -73,5 +74,15 @@ struct RunOptions {
 
 /// Never throws for a case that fails: the reason is in Result::error.
 Result run_case(const Case& one, const RunOptions& options);
+
+/// Trials of a real machine, of which nothing is known but what they show: folders, with the model that the
+/// first of them names.
+struct Measured {
+  std::vector<std::string> trials;
+  std::string data_folder;  ///< in place of that of the trials' files; empty: as they say
+};
+
+/// The same of measurements: nothing is right or wrong.
+Result run_measured(const Measured& measured, const RunOptions& options);
 
 }  // namespace plumbline::battery

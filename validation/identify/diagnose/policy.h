@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -66,11 +67,13 @@ struct Policy {
 struct PolicyConstant {
   std::string name;
   std::variant<double Policy::*, int Policy::*> member;
-  double origin = 0.0;  ///< from which it is measured: an error of 1.2 is 0.2 above the floor
+  double origin = 0.0;             ///< from which it is measured: an error of 1.2 is 0.2 above the floor
+  std::optional<double> absent{};  ///< the value with which its rule decides nothing; empty: there is none
 
   double value(const Policy& policy) const;
   /// origin + factor * (value - origin); counts are rounded, and at least 1.
   void scale(Policy& policy, double factor) const;
+  void set(Policy& policy, double value) const;
 };
 
 /// All numbers of Policy but `windows`, `resamples` and `seed`, in the order in which they stand there.
