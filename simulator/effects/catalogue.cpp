@@ -27,6 +27,7 @@
 #include "simulator/effects/hardening.h"
 #include "simulator/effects/harmonic_drive.h"
 #include "simulator/effects/hysteresis.h"
+#include "simulator/effects/link_inertia.h"
 #include "simulator/effects/load_friction.h"
 #include "simulator/effects/lugre.h"
 #include "simulator/effects/payload.h"
@@ -92,6 +93,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
       std::make_shared<const ComShift>(),
+      std::make_shared<const LinkInertia>(),
       std::make_shared<const Payload>(),
       std::make_shared<const GravityTilt>(),
       std::make_shared<const Boom>(),

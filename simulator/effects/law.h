@@ -128,11 +128,12 @@ class ActuatorLaw : public Law {
 
 /// A change of the robot's constants.
 struct StructureChange {
-  double inertia = 0.0;                                  ///< added to the place's generalised inertia
-  double mass = 0.0;                                     ///< added to the body, at its centre of mass, kg
-  double payload = 0.0;                                  ///< a point mass carried by the body, kg
-  Eigen::Vector3d payload_at = Eigen::Vector3d::Zero();  ///< where it hangs, in the body's frame, m
-  Eigen::Vector3d com_shift = Eigen::Vector3d::Zero();   ///< of the body, in its frame, m
+  double inertia = 0.0;                                   ///< added to the place's generalised inertia
+  double mass = 0.0;                                      ///< added to the body, at its centre of mass, kg
+  double payload = 0.0;                                   ///< a point mass carried by the body, kg
+  Eigen::Vector3d payload_at = Eigen::Vector3d::Zero();   ///< where it hangs, in the body's frame, m
+  Eigen::Vector3d com_shift = Eigen::Vector3d::Zero();    ///< of the body, in its frame, m
+  Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity();  ///< of its matter about its centre of mass
   Eigen::Vector3d tilt =
       Eigen::Vector3d::Zero();  ///< rotation vector applied to gravity in the world frame, rad
   double curvature = 0.0;       ///< of the base's ways, above 0 about a point to the left, 1/m

@@ -18,6 +18,17 @@ void hang_on(Body& body, double mass, const Eigen::Vector3d& r) {
   body.mass = total;
 }
 
+/// The body's matter moves by a linear map about its centre of mass.
+void stretch(Body& body, const Eigen::Matrix3d& map) {
+  if (map.isIdentity(0.0)) {
+    return;
+  }
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d moments = 0.5 * body.inertia.trace() * identity - body.inertia;
+  const Eigen::Matrix3d moved = map * moments * map.transpose();
+  body.inertia = moved.trace() * identity - moved;
+}
+
 }  // namespace
 
 void change_body(Body& body, const effects::StructureChange& change, const std::string& who) {
@@ -31,6 +42,7 @@ void change_body(Body& body, const effects::StructureChange& change, const std::
   }
   body.mass = mass;
   body.com += change.com_shift;
+  stretch(body, change.stretch);
   hang_on(body, change.payload, change.payload_at);
 }
 

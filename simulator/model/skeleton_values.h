@@ -15,7 +15,7 @@ struct JointValues {
 };
 
 struct SkeletonValues {
-  std::vector<Body> bodies;         ///< with added_mass, com_shift and payload in them
+  std::vector<Body> bodies;         ///< with added_mass, com_shift, link_inertia and payload in them
   std::vector<JointValues> joints;  ///< one for each of the skeleton
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<std::string> left_out;  ///< what has no place here, a sentence each

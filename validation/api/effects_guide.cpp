@@ -52,6 +52,8 @@ const std::vector<EffectGuide>& effects_guide() {
       {"added_mass", "inertia", "com_shift, payload, torque_constant_error",
        "stand still at many positions, then accelerate"},
       {"com_shift", "inertia", "added_mass, payload, gravity_tilt", "stand still at many positions"},
+      {"link_inertia", "inertia", "rotor_inertia, payload, added_mass",
+       "turn fast about all axes that the joints allow"},
       {"payload", "inertia", "added_mass, com_shift",
        "stand still at many positions, then accelerate about two axes"},
       {"resonator", "inertia", "cable_stretch, rotor_inertia, lugre",

@@ -51,6 +51,9 @@ Limits limits_of(const model::Model& model, const model::EffectUse& use, int par
     return limits_in_space(model, use, parameter - 1);
   }
   Limits limits;
+  if (law == "link_inertia") {
+    return {-1.0, 1.0};  // matter e times as far from the centre, or as near
+  }
   if (law == "added_mass" && body >= 0) {
     limits.lower = (kLeft - 1.0) * model.skeleton.bodies[static_cast<std::size_t>(body)].mass;
   } else if (law == "torque_constant_error") {

@@ -8,6 +8,7 @@ namespace plumbline::validation {
 /// Narrows the bounds of one parameter of an effect that changes the robot's constants, and marks it as one
 /// whose bounds are physical:
 ///   com_shift: the centre of mass stays in model::link_box();
+///   link_inertia: its matter is stretched e times at most;
 ///   payload: it hangs no farther outside model::link_box() than the robot's largest link is long (the
 ///   diagonal of its
 ///     box), since a hand, a tool or a weight is no longer than a link;

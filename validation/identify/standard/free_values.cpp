@@ -15,6 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMassShare = 0.1;
 constexpr double kLeastMassShare = 0.1;
+constexpr double kStretch = 0.2;
+constexpr double kMostStretch = 1.0;  // matter e times as far from the centre
 constexpr double kRotorShare = 0.2;
 constexpr double kFeltShare = 0.1;
 constexpr double kTorqueConstantShare = 0.1;
@@ -103,6 +105,10 @@ class Freeing {
       free(shift, axes[static_cast<std::size_t>(i)],
            {box.sizes().maxCoeff(), box.min()[i] - link.com[i], box.max()[i] - link.com[i]});
     }
+    const int tensor = use_of("link_inertia", link.name);
+    for (const char* stretch : {"x", "y", "z", "xy", "xz", "yz"}) {
+      free(tensor, stretch, {kStretch, -kMostStretch, kMostStretch});
+    }
   }
 
   void motor(const model::Motor& stated, const MotorScales& scales) {
@@ -186,7 +192,7 @@ bool FreedKind::has(const std::string& law) const {
 
 const std::vector<FreedKind>& freed_kinds() {
   static const std::vector<FreedKind> kKinds{
-      {"masses and centres of mass", {"added_mass", "com_shift"}},
+      {"masses, centres of mass and inertias", {"added_mass", "com_shift", "link_inertia"}},
       {"rotor inertias and gains", {"rotor_inertia", "torque_constant_error"}},
       {"offsets of torque", {"torque_bias"}},
       {"friction", {"viscous", "coulomb"}}};

@@ -55,16 +55,16 @@ struct FreeModel {
 };
 
 /// Free are, where the model has such an effect its own value, else that of one more at the place:
-///   added_mass, com_shift           of each body with a mass
+///   added_mass, com_shift, link_inertia      of each body with a mass: its ten inertial parameters
 ///   rotor_inertia, torque_bias, torque_constant_error, viscous, coulomb      of each motor in `scales`;
 ///                                   friction where the model has it already: at the motor or what it drives;
 ///   viscous, coulomb                of what else is in `scales`: joints without a motor.
 /// Spread: what the model states (mass, rotor inertia, torque constant, effects' values); else 10 % of the
-/// mass, the largest side of the link's box for its centre of mass, 20 % of the rotor inertia but a tenth of
-/// what the motor feels at least, 10 % of a torque constant, the rms torque for Coulomb friction and bias,
-/// and that by the rms velocity for viscous friction. Limits: mass at least a tenth of the stated one, the
-/// centre of mass in model::link_box(), rotor inertia not below zero, friction likewise, torque constant at
-/// least a tenth.
+/// mass, the largest side of the link's box for its centre of mass, a stretch of 0.2 of its inertia, 20 % of
+/// the rotor inertia but a tenth of what the motor feels at least, 10 % of a torque constant, the rms torque
+/// for Coulomb friction and bias, and that by the rms velocity for viscous friction. Limits: mass at least a
+/// tenth of the stated one, the centre of mass in model::link_box(), a stretch of at most e, rotor inertia
+/// not below zero, friction likewise, torque constant at least a tenth.
 FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales,
                       Freed freed = Freed::all);
 
