@@ -45,10 +45,7 @@ class BySegments {
  public:
   BySegments(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
              const Progress& progress, Diagnosis& diagnosis)
-      : catalogue_(catalogue), data_(data), policy_(policy), progress_(progress), diagnosis_(diagnosis) {
-    // Windows that expand errors a thousandfold hardly come below it.
-    policy_.at_floor = policy.nothing;
-  }
+      : catalogue_(catalogue), data_(data), policy_(policy), progress_(progress), diagnosis_(diagnosis) {}
 
   Followed run(const model::Model& model, Followed followed) {
     // The beginnings of windows are of use where these begin in flight.

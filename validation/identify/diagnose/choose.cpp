@@ -39,17 +39,17 @@ bool is_of_family(const Refit& one, const Refit& other, const TiedPlaces& places
 
 /// Better in nearly all of the resamples, and by more than the searches leave.
 bool is_surely_better(const Refit& other, const Refit& than, const Data& data, const Policy& policy) {
-  return other.square() < (1.0 - policy.same) * than.square() &&
+  return other.square() < (1.0 - kRefitTolerance) * than.square() &&
          share_better(other, than, data, policy) > 1.0 - policy.fair;
 }
 
 /// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them. Far
 /// above the floor, where parameters make up for what else is missing, a law with fewer of them is near
 /// unless the best is surely better (Breiman et al. 1984: the simplest within the error of the estimate of
-/// the error), and one of the same family at the same place for longer.
+/// the error).
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
-                                   const TiedPlaces& places, const Policy& policy) {
+                                   const Policy& policy) {
   std::vector<std::size_t> near;
   if (contenders.empty()) {
     return near;
@@ -58,8 +58,7 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
   const bool is_far = !is_below(policy.far, best.estimate, data);
   for (const std::size_t i : contenders) {
     const bool is_simpler = is_far && refits[i].own < best.own;
-    const bool is_contained = is_simpler && is_of_family(refits[i], best, places);
-    if (together(refits[i]) < (1.0 + (is_contained ? policy.simpler_far : policy.simpler)) * together(best) ||
+    if (together(refits[i]) < (1.0 + policy.simpler) * together(best) ||
         (is_simpler && !is_surely_better(best, refits[i], data, policy))) {
       near.push_back(i);
     }
@@ -71,15 +70,14 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
 /// from one that can be true. Only those that would win a share or the name are looked at, until none is
 /// refused.
 std::vector<std::size_t> without_refused(const Stage& stage, const std::vector<Refit>& refits,
-                                         const Data& data, const TiedPlaces& places, const Policy& policy,
-                                         Choice& choice) {
+                                         const Data& data, const Policy& policy, Choice& choice) {
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
   for (bool all_seen = false; !all_seen;) {
     all_seen = true;
     choice.shares = selected_shares(stage, refits, contenders, data, policy);
-    std::vector<std::size_t> asked = near_best(refits, contenders, data, places, policy);
+    std::vector<std::size_t> asked = near_best(refits, contenders, data, policy);
     for (const std::size_t i : contenders) {
       if (choice.shares[i] > policy.fair) {
         asked.push_back(i);
@@ -95,39 +93,6 @@ std::vector<std::size_t> without_refused(const Stage& stage, const std::vector<R
     contenders.erase(std::remove_if(contenders.begin(), contenders.end(),
                                     [&](std::size_t i) { return !choice.objections[i].empty(); }),
                      contenders.end());
-  }
-  return contenders;
-}
-
-/// Does the refit add a law that the stage has at the same place already as an uncertain number of the model?
-/// It would then be off by more than three of the deviations within which it is free.
-bool repeats_number(const Stage& stage, const Refit& refit) {
-  if (refit.added.size() != 1) {
-    return false;
-  }
-  const std::string label =
-      refit.extended.model.effects[static_cast<std::size_t>(refit.added.front())].label();
-  return std::any_of(stage.parameters.begin(), stage.parameters.end(), [&](const FreeParameter& one) {
-    return std::isfinite(one.deviation) &&
-           stage.model.effects[static_cast<std::size_t>(one.id.effect)].label() == label;
-  });
-}
-
-/// Far above the floor a number beyond all that is stated of it is the first to make up for what is missing:
-/// it gives way to an effect that does nearly as well.
-std::vector<std::size_t> without_repeated_numbers(const Stage& stage, const std::vector<Refit>& refits,
-                                                  std::vector<std::size_t> contenders, const Data& data,
-                                                  const Policy& policy, Choice& choice) {
-  while (!contenders.empty() && repeats_number(stage, refits[contenders.front()]) &&
-         !is_below(policy.far, refits[contenders.front()].estimate, data)) {
-    const auto other = std::find_if(contenders.begin(), contenders.end(),
-                                    [&](std::size_t i) { return !repeats_number(stage, refits[i]); });
-    if (other == contenders.end() ||
-        together(refits[*other]) > (1.0 + policy.simpler_far) * together(refits[contenders.front()])) {
-      break;
-    }
-    choice.objections[contenders.front()] = "beyond all that is stated of it; an effect does nearly as well";
-    contenders.erase(contenders.begin());
   }
   return contenders;
 }
@@ -166,7 +131,7 @@ std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& 
     }
     const bool smaller = refits[i].own <= refits[named].own;
     if (smaller ? share_better(refits[i], refits[named], data, policy) > policy.fair ||
-                      refits[i].square() < (1.0 + policy.same) * refits[named].square()
+                      refits[i].square() < (1.0 + kRefitTolerance) * refits[named].square()
                 : is_surely_better(refits[i], refits[named], data, policy)) {
       rivals.push_back(i);
     }
@@ -184,12 +149,11 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   const TiedPlaces places(stage.model);
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
-  const std::vector<std::size_t> contenders = without_repeated_numbers(
-      stage, refits, without_refused(stage, refits, data, places, policy, choice), data, policy, choice);
+  const std::vector<std::size_t> contenders = without_refused(stage, refits, data, policy, choice);
   if (contenders.empty()) {
     return choice;
   }
-  std::vector<std::size_t> near = near_best(refits, contenders, data, places, policy);
+  std::vector<std::size_t> near = near_best(refits, contenders, data, policy);
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
     if (is_near || is_of_family(refits[i], refits[contenders.front()], places)) {

@@ -130,12 +130,12 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 }
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
-  if (judged(fitted.stage.estimate, data_) > (1.0 + policy_.harmful) * judged(given.stage.estimate, data_)) {
+  if (judged(fitted.stage.estimate, data_) > (1.0 + policy_.material) * judged(given.stage.estimate, data_)) {
     look(policy_.most_effects,
          diagnosis);  // values that do not hold on the other motion are none of the robot
     return;
   }
-  if (!explains_much(given, fitted)) {
+  if (!helps(given, fitted)) {
     look(policy_.most_as_stated, diagnosis);
     if (!speaks_for_stated(diagnosis)) {
       restart({given, fitted}, diagnosis);
@@ -161,10 +161,9 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
 }
 
-bool Diagnoser::explains_much(const Rung& given, const Rung& fitted) const {
+bool Diagnoser::helps(const Rung& given, const Rung& fitted) const {
   const double before = judged(given.stage.estimate, data_);
-  const double after = judged(fitted.stage.estimate, data_);
-  return before > policy_.finished && after * after - 1.0 < policy_.own_share * (before * before - 1.0);
+  return before > policy_.finished && judged(fitted.stage.estimate, data_) < before;
 }
 
 double Diagnoser::evidence(const Diagnosis& diagnosis) const {
@@ -207,7 +206,7 @@ bool Diagnoser::promises_much(const Stage& open, double least) const {
       linear_problem(open.model, open.parameters, values_of(open.model, open.parameters), data_,
                      data_.all_windows(), open.estimate.x0);
   const double before = problem.train.sse / problem.train.samples;
-  return before - promise_of(problem).train > std::max(policy_.promised * (before - 1.0), least * before);
+  return before - promise_of(problem).train > std::max(policy_.material * (before - 1.0), least * before);
 }
 
 Stage Diagnoser::fit_own(const Stage& open) const {

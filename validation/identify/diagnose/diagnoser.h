@@ -48,7 +48,7 @@ class Diagnoser {
   /// with free numbers, too.
   void look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis);
   /// What is left above the floor with the numbers fitted is less than half of what was.
-  bool explains_much(const Rung& given, const Rung& fitted) const;
+  bool helps(const Rung& given, const Rung& fitted) const;
   double evidence(const Diagnosis& diagnosis) const;
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
   bool speaks_for_stated(const Diagnosis& diagnosis) const;

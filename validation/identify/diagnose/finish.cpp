@@ -183,7 +183,7 @@ void conclude(const Data& data, const Policy& policy, Diagnosis& diagnosis) {
   const double after = judged(diagnosis.final_stage.estimate, data);
   if (diagnosis.accepted.empty()) {
     // The first rungs may be of shorter segments of the windows, on which nothing was missing yet.
-    diagnosis.verdict = after < policy.nothing ? Verdict::nothing_missing : Verdict::unexplained;
+    diagnosis.verdict = after < policy.at_floor ? Verdict::nothing_missing : Verdict::unexplained;
     diagnosis.unexplained_share = diagnosis.verdict == Verdict::unexplained ? 1.0 : 0.0;
     return;
   }

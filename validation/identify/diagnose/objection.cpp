@@ -30,33 +30,6 @@ OwnPart part_of(const Refit& refit, const Eigen::VectorXd& theta, int effect) {
   return part;
 }
 
-/// Change of an added effect's parameters that the held-out windows alone would ask for, relative, after
-/// everything has moved as far towards them as the train windows leave open.
-double disagreement(const Refit& refit, int effect, const Data& data) {
-  const std::vector<int> windows = data.windows_of(Role::held_out);
-  const Eigen::VectorXd& theta = refit.estimate.predicted.theta;
-  const OwnPart own = part_of(refit, theta, effect);
-  const Eigen::Index n = own.theta.size();
-  if (windows.empty() || n == 0) {
-    return 0.0;
-  }
-  PredictorPool pool(with_values(refit.extended.model, refit.extended.parameters, theta), data);
-  const Eigen::VectorXd units = search_units(own.parameters, own.theta);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
-  for (const Reduced& one : reduce(pool, windows, own.parameters, own.theta, refit.estimate.x0, units)) {
-    H += one.H;
-    g += one.g;
-  }
-  // Along the best-determined direction of the law: how strong the held-out motion wants the whole law.
-  Eigen::VectorXd direction(n);
-  for (Eigen::Index p = 0; p < n; ++p) {
-    direction[p] = to_search(own.parameters[static_cast<std::size_t>(p)].scale, own.theta[p]) / units[p];
-  }
-  const double curvature = direction.dot(H * direction);
-  return curvature > 0.0 ? std::abs(direction.dot(g)) / curvature : 0.0;
-}
-
 /// Mean square of a refit (Refit::square) with one parameter held at a value and all others fitted anew.
 double square_with(double value, std::size_t parameter, const Refit& refit, const Data& data) {
   constexpr int kIterations = 8;
@@ -66,23 +39,21 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
   const model::Model held = with_values(refit.extended.model, others, theta);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
   PredictorPool pool(held, data);
-  return gauss_newton(pool, others, values_of(held, others), refit.estimate.x0, {kIterations, 2e-3, false})
+  return gauss_newton(pool, others, values_of(held, others), refit.estimate.x0,
+                      {kIterations, kRefitTolerance, false})
       .predicted.scores.square();
 }
 
-/// Is the error materially larger a tenth of a value's way from nothing than at the value, whatever the other
-/// parameters do (profile likelihood)? That an effect is there and how strong it is are two questions: a
-/// strength that trades with a torque constant is open, the effect need not be. Where the model cannot be
-/// integrated it is not known: no.
+/// Is the error materially larger at the null value than at the value, whatever the other parameters do
+/// (profile likelihood)? That an effect is there and how strong it is are two questions: a strength that
+/// trades with a torque constant is open, the effect need not be. Where the model cannot be integrated it is
+/// not known: no.
 bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
                const Policy& policy) {
-  const effects::Scale scale = refit.extended.parameters[parameter].scale;
   const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
-  const double nothing = to_search(scale, null);
-  const double near = from_search(scale, nothing + policy.near_nothing * (to_search(scale, value) - nothing));
   const double most = 1.0 + policy.material;
   try {
-    return square_with(near, parameter, refit, data) >
+    return square_with(null, parameter, refit, data) >
            most * most * square_with(value, parameter, refit, data);
   } catch (const Stopped&) {
     throw;
@@ -197,21 +168,7 @@ std::string refusal(const Stage& stage, const Refit& refit, const Data& data, co
     const std::string error = judged ? "held-out error" : "train error";
     return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
   }
-  const std::string wrong = flaw(refit, data, policy);
-  if (!wrong.empty()) {
-    return wrong;
-  }
-  // Far above the floor every strength is a compromise with what else is missing.
-  const bool is_far = !is_below(policy.far, refit.estimate, data);
-  return unless_unsteady([&]() -> std::string {
-    for (const int effect : refit.added) {
-      const double apart = disagreement(refit, effect, data);
-      if (apart > (is_far ? policy.consistent_far : policy.consistent)) {
-        return "inconsistent: the held-out motion asks for a strength that differs by " + percent(apart);
-      }
-    }
-    return "";
-  });
+  return flaw(refit, data, policy);
 }
 
 std::string objection(double share, const Policy& policy) {

@@ -18,8 +18,8 @@ std::string unphysical(const Refit& refit);
 /// bound, or one that cannot be told from no effect. Empty when nothing is wrong with it.
 std::string flaw(const Refit& refit, const Data& data, const Policy& policy);
 
-/// Why a refit cannot be named, whatever the others do: an error that does not fall, a flaw, or a strength
-/// that the held-out motion contradicts. Empty when it can.
+/// Why a refit cannot be named, whatever the others do: an error that does not fall, or a flaw. Empty when it
+/// can.
 std::string refusal(const Stage& stage, const Refit& refit, const Data& data, const Policy& policy);
 
 /// Why a refit that nothing else speaks against is not named with this share of the resamples; empty when it

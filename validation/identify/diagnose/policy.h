@@ -14,35 +14,22 @@ namespace plumbline::validation {
 /// docs/method-constants.md has the reasons.
 struct Policy {
   // Where an error is.
-  double at_floor = 1.05;  ///< nothing is left to explain
-  double nothing = 1.1;    ///< nothing is missing, where nothing was named
+  double at_floor = 1.1;   ///< nothing is left to explain
   double finished = 1.2;   ///< what was named is an answer
   double far = 3.0;        ///< more is missing than one effect
   double hopeless = 20.0;  ///< so much is missing that no pair is looked for
   double nearer = 1.5;     ///< above it: to be sought on shorter windows, a law must promise this there
 
   // When a law is named.
-  double material = 0.05;     ///< least relative fall of the error that counts (held-out where there is one)
-  double simpler = 0.02;      ///< relative rise of the error at which a simpler law is still preferred
-  double simpler_far = 0.25;  ///< the same above `far`, where constants make up for what else is missing
-  double stable = 0.7;        ///< least share of resamples that choose the effect, its family or a rival
-  double fair = 0.05;         ///< least share of resamples in which a law must be better to be a rival
-  double same = 2e-3;         ///< relative difference of squared errors that the searches may leave
-  double consistent = 0.35;   ///< relative disagreement of a strength between train and held-out
-  double consistent_far = 1.0;  ///< the same above `far`: the held-out motion must not ask for none
-  double told = 2.0;            ///< deviations by which a strength differs from nothing
-  double near_nothing = 0.1;    ///< share of a strength at which a law is tried as good as absent
+  double material = 0.05;  ///< least relative fall of the error that counts (held-out where there is one)
+  double simpler = 0.02;   ///< relative rise of the error at which a simpler law is still preferred
+  double stable = 0.7;     ///< least share of resamples that choose the effect, its family or a rival
+  double fair = 0.05;      ///< least share of resamples in which a law must be better to be a rival
+  double told = 2.0;       ///< deviations by which a strength differs from nothing
 
   // The model's own parameters.
   double parameter_width = 3.0;  ///< stated standard deviations that they may move
   double evidence = 100.0;       ///< least odds with which the stated values are believed, or given up
-  double promised = 0.25;  ///< share of the squared error above the floor for which they are freed early
-  double own_share = 0.5;  ///< share that they must leave at most to be fitted before effects are tried
-  double harmful = 0.2;    ///< relative rise of the held-out error at which they stay as stated
-
-  // Friction at every joint, fitted at once.
-  double group_rest = 0.25;   ///< share of the squared error that it leaves at most to be taken at first
-  double group_better = 0.8;  ///< of the error of the best single effect
 
   // How far is searched.
   int most_effects = 4;       ///< rounds in which an effect is named

@@ -18,7 +18,7 @@ namespace {
 
 /// Nothing is left to explain by the best (`refits` is sorted).
 bool at_floor(const std::vector<Refit>& refits, const Data& data, const Policy& policy) {
-  return !refits.empty() && is_below(policy.nothing, refits.front().estimate, data);
+  return !refits.empty() && is_below(policy.at_floor, refits.front().estimate, data);
 }
 
 /// The best so far, in full before the others are tried, where it explains nearly all: once it is at the

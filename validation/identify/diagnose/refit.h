@@ -9,6 +9,9 @@
 
 namespace plumbline::validation {
 
+/// Relative change of the squared error at which a refit's search ends: what is nearer is the same.
+constexpr double kRefitTolerance = 2e-3;
+
 /// A candidate, or two of them, refitted nonlinearly on the train windows.
 struct Refit {
   int candidate = 0;

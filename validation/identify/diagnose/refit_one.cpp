@@ -90,7 +90,7 @@ class EveryThird {
 void continue_refit(Refit& refit, const Data& data, int iterations) {
   PredictorPool pool(refit.extended.model, data);
   refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
-                                {iterations, 2e-3, false});
+                                {iterations, kRefitTolerance, false});
   refit.extended.theta = refit.estimate.theta;
 }
 
@@ -216,7 +216,7 @@ void finish_one(Refit& one, double square_before, const Candidate& candidate, co
     }
     one = std::move(further);
     const bool explains = one.square() < kLeft * square_before || is_below(policy.far, one.estimate, data);
-    if (smoothing && explains && !data.has_segments() && !is_below(policy.nothing, one.estimate, data)) {
+    if (smoothing && explains && !data.has_segments() && !is_below(policy.at_floor, one.estimate, data)) {
       fit_smoothing(one, *smoothing, data);
     }
   } catch (const Stopped&) {

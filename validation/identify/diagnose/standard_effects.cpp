@@ -84,10 +84,9 @@ Stage with_all(const Stage& stage, const std::vector<Candidate>& candidates) {
 
 Stage fitted(Stage all, const Data& data) {
   constexpr int kIterations = 12;
-  constexpr double kTolerance = 2e-3;
   PredictorPool pool(all.model, data);
   all.estimate = gauss_newton(pool, all.parameters, all.estimate.theta, all.estimate.x0,
-                              {kIterations, kTolerance, false});
+                              {kIterations, kRefitTolerance, false});
   all.model = with_values(all.model, all.parameters, all.estimate.theta);
   return all;
 }
@@ -175,8 +174,8 @@ std::optional<Group> best_group(const Tried& tried, const Data& data, const Poli
 }
 
 /// Does it leave so little that no single effect needs to be refitted beside it?
-bool is_ahead_of_promises(const Refit& group, const Tried& tried, const Policy& policy) {
-  double promised = policy.group_rest * tried.stage.estimate.predicted.scores.square();
+bool is_ahead_of_promises(const Refit& group, const Tried& tried) {
+  double promised = tried.stage.estimate.predicted.scores.square();
   for (const Hypothesis& hypothesis : tried.hypotheses) {
     promised = std::min(promised, hypothesis.promised());
   }
@@ -207,9 +206,9 @@ std::optional<Group> standard_effects(const Tried& tried, const Data& data, cons
     const Refit best = tried.refits.empty() ? as_refit(tried.stage) : tried.refits.front();
     group->share = share_better(one, best, data, policy);
     const bool is_better =
-        judged(one.estimate, data) < policy.group_better * judged(best.estimate, data) &&
-        judged(one.estimate, data) < policy.group_better * judged(tried.stage.estimate, data);
-    const bool is_ahead = !tried.refits.empty() || is_ahead_of_promises(one, tried, policy);
+        judged(one.estimate, data) < (1.0 - policy.material) * judged(best.estimate, data) &&
+        judged(one.estimate, data) < (1.0 - policy.material) * judged(tried.stage.estimate, data);
+    const bool is_ahead = !tried.refits.empty() || is_ahead_of_promises(one, tried);
     return is_better && is_ahead && group->share > policy.stable ? group : std::nullopt;
   } catch (const Stopped&) {
     throw;
