@@ -70,6 +70,9 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Pol
       diagnosis.ladder.back().length) {  // else they have been tried without
     drop_superfluous(all, policy, progress, diagnosis);
   }
+  if (!is_below(policy.finished, diagnosis.final_stage.estimate, all)) {
+    leave_contradicted_unnamed(all, policy, progress, diagnosis);
+  }
   const bool is_answer =
       !diagnosis.accepted.empty() && is_below(policy.finished, diagnosis.final_stage.estimate, all);
   // Far above the floor each of the refits takes long, and says little of many values.

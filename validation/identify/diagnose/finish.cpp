@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "validation/identify/diagnose/accept.h"
+#include "validation/identify/diagnose/contradicted.h"
 #include "validation/identify/diagnose/findings.h"
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/revise.h"
@@ -72,29 +74,53 @@ void take_back(const Finding& finding, const Stage& without, std::vector<Rung>& 
   ladder.pop_back();
 }
 
+/// Without one finding; `stage` is what is left then.
+void drop(std::size_t finding, const Stage& stage, Diagnosis& diagnosis) {
+  take_back(diagnosis.accepted[finding], stage, diagnosis.ladder);
+  diagnosis.accepted.erase(diagnosis.accepted.begin() + static_cast<std::ptrdiff_t>(finding));
+  diagnosis.final_stage = diagnosis.ladder.back().stage;
+}
+
+/// What is left without a finding: known where it came last, else fitted.
+Stage stage_without(std::size_t finding, const Data& all, const Policy& policy, const Progress& progress,
+                    const Diagnosis& diagnosis) {
+  const Stage& stage = diagnosis.final_stage;
+  const std::vector<Finding>& accepted = diagnosis.accepted;
+  const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + finding);
+  if (const Stage* known = before_last(accepted[finding], without_effect(stage, effect), diagnosis.ladder)) {
+    return *known;
+  }
+  progress("is " + accepted[finding].label() + " still needed", 0.9);
+  return refitted_without(stage, effect, all, policy);
+}
+
+/// The finding of whose strength the held-out motion wants the least, if it asks for none of it.
+std::optional<std::size_t> most_contradicted(const Data& all, const Diagnosis& diagnosis) {
+  constexpr double kNone = 1.0;
+  const Stage& stage = diagnosis.final_stage;
+  const std::size_t first = stage.model.effects.size() - diagnosis.accepted.size();
+  std::optional<std::size_t> most;
+  double apart = kNone;
+  for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
+    const double one = asked_otherwise(stage, static_cast<int>(first + i), all);
+    if (one > apart) {
+      apart = one;
+      most = i;
+    }
+  }
+  return most;
+}
+
 }  // namespace
 
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
-  std::vector<Finding>& accepted = diagnosis.accepted;
-  const auto without = [&](std::size_t i) {
-    const Stage& stage = diagnosis.final_stage;
-    const auto effect = static_cast<int>(stage.model.effects.size() - accepted.size() + i);
-    if (const Stage* known = before_last(accepted[i], without_effect(stage, effect), diagnosis.ladder)) {
-      return *known;
-    }
-    progress("is " + accepted[i].label() + " still needed", 0.9);
-    return refitted_without(stage, effect, all, policy);
-  };
-  const auto drop = [&](std::size_t i, const Stage& stage) {
-    take_back(accepted[i], stage, diagnosis.ladder);
-    accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(i));
-    diagnosis.final_stage = diagnosis.ladder.back().stage;
-  };
+  const std::vector<Finding>& accepted = diagnosis.accepted;
+  const auto without = [&](std::size_t i) { return stage_without(i, all, policy, progress, diagnosis); };
   // What helped on the windows on which it was tried, and harms on all, the last first.
   for (std::size_t i = accepted.size(); accepted.size() > 1 && i-- > 0;) {
     const Stage stage = without(i);
     if (judged(stage.estimate, all) < (1.0 - policy.simpler) * judged(diagnosis.final_stage.estimate, all)) {
-      drop(i, stage);
+      drop(i, stage, diagnosis);
     }
   }
   // Against what all of them reach: several small rises would add up.
@@ -106,10 +132,25 @@ void drop_superfluous(const Data& all, const Policy& policy, const Progress& pro
                                  stage.estimate.scores.train / train_with_all) -
                         1.0;
     if (rise < policy.material) {
-      drop(i, stage);
+      drop(i, stage, diagnosis);
     } else {
       ++i;
     }
+  }
+}
+
+void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
+                                Diagnosis& diagnosis) {
+  Unnamed whole{{}, diagnosis.final_stage, true};
+  for (auto i = most_contradicted(all, diagnosis); i; i = most_contradicted(all, diagnosis)) {
+    whole.effects.push_back(diagnosis.accepted[*i]);
+    drop(*i, stage_without(*i, all, policy, progress, diagnosis), diagnosis);
+  }
+  const double least = std::min(judged(diagnosis.final_stage.estimate.scores, all),
+                                diagnosis.unnamed ? judged(diagnosis.unnamed->stage.estimate.scores, all)
+                                                  : std::numeric_limits<double>::infinity());
+  if (!whole.effects.empty() && judged(whole.stage.estimate.scores, all) < least) {
+    diagnosis.unnamed = std::move(whole);
   }
 }
 

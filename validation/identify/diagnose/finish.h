@@ -9,6 +9,11 @@ namespace plumbline::validation {
 /// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
 
+/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h) may still lower the
+/// error: it makes up for something else. It stays in the best model, and is no name.
+void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
+                                Diagnosis& diagnosis);
+
 /// The last values of an answer, to a tenth of a standard deviation and better: searches among candidates end
 /// as soon as they can be told apart.
 void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis);
