@@ -81,6 +81,44 @@ TEST_F(NewModel, TakesAGripperThatTheLogDoesNotShow) {
   succeed({"compare", "log_train", "log_held_out"});
 }
 
+// A hip with a geared motor, a knee with a servo, an ankle that nothing drives.
+TEST_F(NewModel, TakesTheActuatorsAndTheNoiseOfAnMjcfFile) {
+  write(
+      "leg.xml",
+      "<mujoco><compiler angle=\"radian\"/><default><position forcerange=\"-30 30\" kp=\"80\"/></default>\n"
+      "<worldbody><body name=\"thigh\"><joint name=\"hip\" axis=\"0 1 0\"/><geom size=\"0.05\" mass=\"2\"/>\n"
+      "<body name=\"shin\" pos=\"0 0 -0.3\"><joint name=\"knee\" axis=\"0 1 0\"/><geom size=\"0.04\" "
+      "mass=\"1\"/>\n"
+      "<body name=\"foot\" pos=\"0 0 -0.3\"><joint name=\"ankle\" axis=\"0 1 0\"/><geom size=\"0.02\" "
+      "mass=\"0.2\"/></body></body></body></worldbody>\n"
+      "<actuator><motor name=\"hip_drive\" joint=\"hip\" gear=\"10\" ctrlrange=\"-2 2\"/>\n"
+      "<position joint=\"knee\" gear=\"2\"/></actuator>\n"
+      "<sensor><jointpos joint=\"knee\" noise=\"0.002\"/></sensor></mujoco>\n");
+  succeed({"new-model", "leg.xml", "--out", "model.yaml"});
+  const std::string made = read("model.yaml");
+  EXPECT_THAT(
+      made,
+      HasSubstr("torque_limit: {value: 20, unit: N m, source: \"leg.xml: range of <motor> hip_drive\"}"));
+  EXPECT_THAT(made, HasSubstr("<position>, a servo of 160 N m/rad and 0 N m s/rad"));
+  EXPECT_THAT(made,
+              HasSubstr("torque_limit: {value: 60, unit: N m, source: \"leg.xml: range of <position>\"}"));
+  EXPECT_THAT(made,
+              HasSubstr("noise: {value: 0.002, unit: rad, source: \"leg.xml: noise of its <jointpos>\"}"));
+  EXPECT_THAT(made, testing::Not(HasSubstr("ankle_motor")));
+  EXPECT_THAT(made, testing::Not(HasSubstr("<actuator>")));
+  succeed({"check", "model.yaml"});
+}
+
+TEST_F(NewModel, SaysWhichJointAnActuatorMisses) {
+  write("leg.xml",
+        "<mujoco><worldbody><body><joint name=\"hip\"/><geom size=\"0.05\"/></body></worldbody>\n"
+        "<actuator><motor joint=\"hop\"/></actuator></mujoco>\n");
+  const Outcome refused = plumbline({"new-model", "leg.xml", "--out", "model.yaml"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("leg.xml:2: motor: found joint \"hop\", expected the name of a joint of the file"));
+}
+
 TEST_F(NewModel, NeedsNoLog) {
   succeed({"new-model", "arm.urdf", "--out", "model.yaml"});
   EXPECT_THAT(read("model.yaml"), HasSubstr("command_unit: N m"));

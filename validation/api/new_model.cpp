@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "simulator/model/known_effects.h"
+#include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
@@ -139,7 +140,8 @@ void match(Plan& plan, const NewModelWish& wish) {
 /// Every motor has its command and every joint its position.
 bool is_complete(const Plan& plan) {
   return std::all_of(plan.joints.begin(), plan.joints.end(), [&](const PlannedJoint& one) {
-    return plan.is_held(one) || (one.columns.position >= 0 && one.columns.command >= 0);
+    const bool is_commanded = one.columns.command >= 0 || !plan.is_driven(one);
+    return plan.is_held(one) || (one.columns.position >= 0 && is_commanded);
   });
 }
 
@@ -236,10 +238,10 @@ void describe(const Plan& plan, NewModel& result) {
     return plan.look->columns[static_cast<std::size_t>(index)].name;
   };
   for (const PlannedJoint& one : plan.joints) {
-    result.joints.push_back({one.joint->name, one.motor, name(one.columns.position),
-                             name(one.columns.command), one.columns.position_by_number,
-                             one.columns.command_by_number, plan.command_unit == "A" ? one.gain.value : 0.0,
-                             plan.command_unit == "A" ? one.gain.why : ""});
+    result.joints.push_back(
+        {one.joint->name, plan.is_driven(one) ? one.motor : "", name(one.columns.position),
+         name(one.columns.command), one.columns.position_by_number, one.columns.command_by_number,
+         plan.command_unit == "A" ? one.gain.value : 0.0, plan.command_unit == "A" ? one.gain.why : ""});
   }
   for (std::size_t c = 0; c < used.size(); ++c) {
     if (!used[c] && static_cast<int>(c) != plan.look->time) {
@@ -253,7 +255,11 @@ void describe(const Plan& plan, NewModel& result) {
           ": the log has no column of it, and the trials hold it still at zero (`locked`).");
     }
   }
-  result.remarks.insert(result.remarks.end(), plan.skeleton->left_out.begin(), plan.skeleton->left_out.end());
+  for (const std::string& sentence : plan.skeleton->left_out) {
+    if (!is_taken_by_new_model(sentence)) {
+      result.remarks.push_back(sentence);
+    }
+  }
 }
 
 }  // namespace
@@ -267,6 +273,9 @@ NewModel new_model(const NewModelWish& wish) {
   }
   Plan plan{&skeleton, relative_to(folder_of(wish.file), wish.skeleton), "", look ? &*look : nullptr,
             plan_joints(skeleton)};
+  const model::MjcfDrives drives =
+      model::is_mjcf(wish.skeleton) ? model::read_mjcf_drives(wish.skeleton) : model::MjcfDrives{};
+  add_drives(drives, plan.joints);
   if (plan.joints.empty()) {
     throw InputError({wish.skeleton, 0, ""}, "no moving joint", "a skeleton with one");
   }

@@ -135,6 +135,9 @@ class ModelWriter {
          << "robot: " << quoted(std::filesystem::path(file_).stem().string()) << "\n"
          << "skeleton: " << quoted(plan_.skeleton_path) << "\n";
     for (const std::string& sentence : plan_.skeleton->left_out) {
+      if (is_taken_by_new_model(sentence)) {
+        continue;
+      }
       std::string line = sentence;
       std::replace(line.begin(), line.end(), '\n', ' ');
       out_ << "# Not taken over: " << line << "\n";
@@ -191,7 +194,11 @@ class ModelWriter {
             "# numbers here, and the gear's ratio below.\n"
             "motors:\n";
     for (const PlannedJoint& one : plan_.joints) {
+      if (!plan_.is_driven(one)) {
+        continue;
+      }
       const bool angular = one.columns.angular;
+      write_actuator(one);
       out_ << "  " << one.motor << ":\n    command_unit: " << command_unit_at(plan_.command_unit, angular)
            << "\n    rotor_inertia: " << rotor(one) << "\n";
       if (plan_.command_unit == "A") {
@@ -200,8 +207,33 @@ class ModelWriter {
                          one.gain.why)
              << "\n";
       }
+      if (one.actuator != nullptr && one.actuator->limit > 0.0) {
+        out_ << "    torque_limit: "
+             << quantity(one.actuator->limit, model::force_unit(angular), "", "source",
+                         file_ + ": range of " + actuator(one))
+             << "\n";
+      }
     }
     out_ << "\n";
+  }
+
+  static std::string actuator(const PlannedJoint& one) {
+    return "<" + one.actuator->kind + ">" + (one.actuator->name.empty() ? "" : " " + one.actuator->name);
+  }
+
+  void write_actuator(const PlannedJoint& one) {
+    if (one.actuator == nullptr) {
+      return;
+    }
+    const std::string force = model::force_unit(one.columns.angular);
+    const std::string position = model::position_unit(one.columns.angular);
+    const bool servo = one.actuator->stiffness != 0.0 || one.actuator->damping != 0.0;
+    out_ << "  # " << file_ << ": " << actuator(one)
+         << (servo ? ", a servo of " + number_text(one.actuator->stiffness, kDigits) + " " + force + "/" +
+                         position + " and " + number_text(one.actuator->damping, kDigits) + " " + force +
+                         " s/" + position + ". Here the command is the torque that it asked for."
+                   : std::string())
+         << "\n";
   }
 
   std::string rotor(const PlannedJoint& one) const {
@@ -217,6 +249,9 @@ class ModelWriter {
   void write_ratios() {
     out_ << "ratios:\n";
     for (const PlannedJoint& one : plan_.joints) {
+      if (!plan_.is_driven(one)) {
+        continue;
+      }
       out_ << "  " << one.coordinate << ": {motor: " << one.motor
            << ", ratio: " << quantity(1.0, "1", "", "assumed", "all numbers of the motor are at the joint")
            << "}\n";
@@ -297,7 +332,8 @@ class ModelWriter {
                             " is smoother than an encoder, so filtered or computed");
       }
     }
-    return quantity(0.0, unit, "", "assumed", "quantisation only");
+    return one.noise > 0.0 ? quantity(one.noise, unit, "", "source", file_ + ": noise of its <jointpos>")
+                           : quantity(0.0, unit, "", "assumed", "quantisation only");
   }
 
   std::string resolution(const PlannedJoint& one, const std::string& unit) const {
@@ -333,13 +369,13 @@ void write_channels(const Plan& plan, ColumnOf which, const char* section, std::
                                [&](const PlannedJoint& one) { return one.columns.*which >= 0; });
   out << (any ? "" : "# ") << section << ":\n";
   for (const PlannedJoint& one : plan.joints) {
-    if (plan.is_held(one)) {
+    const bool is_command = which == &JointColumns::command;
+    if (plan.is_held(one) || (is_command && !plan.is_driven(one))) {
       continue;
     }
     const bool angular = one.columns.angular;
-    const bool command = which == &JointColumns::command;
-    out << channel(plan, command ? one.motor : one.coordinate, one.columns.*which,
-                   command ? command_unit_at(plan.command_unit, angular) : model::position_unit(angular));
+    out << channel(plan, is_command ? one.motor : one.coordinate, one.columns.*which,
+                   is_command ? command_unit_at(plan.command_unit, angular) : model::position_unit(angular));
   }
 }
 
@@ -369,6 +405,8 @@ bool any_missing(const Plan& plan) {
 
 }  // namespace
 
+bool is_taken_by_new_model(const std::string& left_out) { return left_out.rfind("<actuator>", 0) == 0; }
+
 std::vector<PlannedJoint> plan_joints(const Skeleton& skeleton) {
   std::set<std::string> taken;
   for (const Joint& joint : skeleton.joints) {
@@ -395,6 +433,24 @@ std::vector<PlannedJoint> plan_joints(const Skeleton& skeleton) {
     planned.push_back(std::move(one));
   }
   return planned;
+}
+
+void add_drives(const model::MjcfDrives& drives, std::vector<PlannedJoint>& joints) {
+  for (PlannedJoint& one : joints) {
+    for (const model::MjcfActuator& actuator : drives.actuators) {
+      if (actuator.joint == one.joint->name && one.actuator == nullptr) {
+        one.actuator = &actuator;
+      }
+    }
+    const auto noise = drives.position_noise.find(one.joint->name);
+    one.noise = noise == drives.position_noise.end() ? 0.0 : noise->second;
+  }
+}
+
+bool Plan::is_driven(const PlannedJoint& one) const {
+  return one.actuator != nullptr || one.columns.command >= 0 ||
+         std::none_of(joints.begin(), joints.end(),
+                      [](const PlannedJoint& joint) { return joint.actuator != nullptr; });
 }
 
 bool Plan::is_held(const PlannedJoint& one) const {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/model/mjcf_drives.h"
 #include "simulator/model/model.h"
 #include "validation/api/new_model_columns.h"
 #include "validation/identify/trial/trial.h"
@@ -22,7 +23,9 @@ struct PlannedJoint {
   const model::Joint* joint = nullptr;
   JointColumns columns;
   std::string coordinate, motor;
-  double small_inertia = 0.0;  ///< of a rotor where the file states none, kg m^2 or kg
+  const model::MjcfActuator* actuator = nullptr;  ///< of an MJCF file, on this joint
+  double noise = 0.0;                             ///< of its position, as an MJCF file states it; rad or m
+  double small_inertia = 0.0;                     ///< of a rotor where the file states none, kg m^2 or kg
   Gain gain;
 };
 
@@ -33,12 +36,20 @@ struct Plan {
   const validation::LogLook* look = nullptr;  ///< nullptr: no log
   std::vector<PlannedJoint> joints;
 
+  /// Nothing drives a joint without an actuator where the file has actuators, unless the log has its command.
+  bool is_driven(const PlannedJoint& one) const;
   /// Has the log nothing of this joint, and something of others? Then the trials hold it still.
   bool is_held(const PlannedJoint& one) const;
 };
 
 /// Names for coordinates and motors that a model may give and no other has; inertias to begin with.
 std::vector<PlannedJoint> plan_joints(const model::Skeleton& skeleton);
+
+/// What the file says of the joints' drives and sensors; `drives` must live as long as `joints`.
+void add_drives(const model::MjcfDrives& drives, std::vector<PlannedJoint>& joints);
+
+/// Does the new model have what the skeleton's sentence says is left out of it: actuators, as motors?
+bool is_taken_by_new_model(const std::string& left_out);
 
 /// The text of model.yaml. Every value has its source or the reason of an assumption.
 std::string model_text(const Plan& plan);

@@ -1,0 +1,138 @@
+#include "simulator/model/mjcf_drives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "simulator/model/mjcf_values.h"
+#include "simulator/trace/file_text.h"
+
+namespace plumbline::model {
+namespace {
+
+using tinyxml2::XMLElement;
+
+class DrivesReader : private MjcfValues {
+ public:
+  explicit DrivesReader(const std::string& path) : MjcfValues(path) {
+    const std::string text = read_text(path);
+    document_.Parse(text.data(), text.size());
+    root_ = document_.RootElement();
+  }
+
+  MjcfDrives read() {
+    if (root_ == nullptr) {
+      return {};
+    }
+    defaults_ = MjcfDefaults(*root_);
+    if (const XMLElement* world = root_->FirstChildElement("worldbody")) {
+      collect_joints(*world);
+    }
+    each("actuator", [&](const XMLElement& one) { read_actuator(one); });
+    each("sensor", [&](const XMLElement& one) { read_sensor(one); });
+    return std::move(drives_);
+  }
+
+ private:
+  template <typename Work>
+  void each(const char* name, const Work& work) const {
+    for (const XMLElement* section = root_->FirstChildElement(name); section != nullptr;
+         section = section->NextSiblingElement(name)) {
+      for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
+           one = one->NextSiblingElement()) {
+        work(*one);
+      }
+    }
+  }
+
+  void collect_joints(const XMLElement& element) {
+    for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      if (std::string(child->Name()) == "joint" && child->Attribute("name") != nullptr) {
+        joints_.insert(child->Attribute("name"));
+      }
+      collect_joints(*child);
+    }
+  }
+
+  /// The joint that the element names; empty where it names none.
+  std::string joint_of(const XMLElement& element) const {
+    const char* joint = defaults_.attribute(element, "joint", "");
+    if (joint == nullptr) {
+      return "";
+    }
+    if (joints_.count(joint) == 0) {
+      refuse(element, "joint \"" + std::string(joint) + "\"", "the name of a joint of the file");
+    }
+    return joint;
+  }
+
+  /// An attribute of several numbers; those that are not given are 0.
+  std::vector<double> row(const XMLElement& element, const char* name, std::size_t least) const {
+    const char* text = defaults_.attribute(element, name, "");
+    std::vector<double> values;
+    if (text != nullptr) {
+      values = numbers(element, text, name);
+    }
+    values.resize(std::max(least, values.size()));
+    return values;
+  }
+
+  double largest(const XMLElement& element, const char* range) const {
+    const std::vector<double> ends = row(element, range, 2);
+    return std::max(std::abs(ends[0]), std::abs(ends[1]));
+  }
+
+  void read_actuator(const XMLElement& element) {
+    MjcfActuator one;
+    one.joint = joint_of(element);
+    if (one.joint.empty()) {
+      return;
+    }
+    const char* name = element.Attribute("name");
+    one.name = name != nullptr ? name : "";
+    one.kind = element.Name();
+    const bool has_gear = defaults_.attribute(element, "gear", "") != nullptr;
+    const double gear = has_gear ? row(element, "gear", 1).front() : 1.0;
+    one.limit = std::abs(gear) * largest(element, "forcerange");
+    if (one.limit == 0.0 && one.kind == "motor") {
+      one.limit = std::abs(gear) * largest(element, "ctrlrange");
+    }
+    set_servo(element, gear, one);
+    drives_.actuators.push_back(one);
+  }
+
+  void set_servo(const XMLElement& element, double gear, MjcfActuator& one) const {
+    if (one.kind == "position") {
+      one.stiffness = gear * number(element, "kp", "", 1.0);
+      one.damping = gear * number(element, "kv", "", 0.0);
+    } else if (one.kind == "velocity") {
+      one.damping = gear * number(element, "kv", "", 1.0);
+    } else if (one.kind == "general") {
+      const char* type = defaults_.attribute(element, "biastype", "");
+      const std::vector<double> bias = row(element, "biasprm", 3);
+      if (type != nullptr && std::string(type) == "affine") {
+        one.stiffness = -gear * bias[1];
+        one.damping = -gear * bias[2];
+      }
+    }
+  }
+
+  void read_sensor(const XMLElement& element) {
+    const double noise = not_negative(element, "noise", "");
+    if (std::string(element.Name()) == "jointpos" && noise > 0.0) {
+      drives_.position_noise[joint_of(element)] = noise;
+    }
+  }
+
+  tinyxml2::XMLDocument document_;
+  const XMLElement* root_ = nullptr;
+  std::set<std::string> joints_;
+  MjcfDrives drives_;
+};
+
+}  // namespace
+
+MjcfDrives read_mjcf_drives(const std::string& path) { return DrivesReader(path).read(); }
+
+}  // namespace plumbline::model
