@@ -94,13 +94,20 @@ Stage stage_without(std::size_t finding, const Data& all, const Policy& policy, 
   return refitted_without(stage, effect, all, policy);
 }
 
-/// The finding of whose strength the held-out motion wants the least, if it asks for none of it.
+/// A finding with which the held-out error has risen; else that of whose strength the held-out motion wants
+/// the least, if it asks for none of it.
 std::optional<std::size_t> most_contradicted(const Data& all, const Diagnosis& diagnosis) {
   constexpr double kNone = 1.0;
   const Stage& stage = diagnosis.final_stage;
   const std::size_t first = stage.model.effects.size() - diagnosis.accepted.size();
   std::optional<std::size_t> most;
   double apart = kNone;
+  for (std::size_t i = diagnosis.accepted.size(); i-- > 0;) {
+    if (all.has(Role::held_out) &&
+        diagnosis.accepted[i].held_out_after > diagnosis.accepted[i].held_out_before) {
+      return i;
+    }
+  }
   for (std::size_t i = 0; i < diagnosis.accepted.size(); ++i) {
     const double one = asked_otherwise(stage, static_cast<int>(first + i), all);
     if (one > apart) {

@@ -9,8 +9,9 @@ namespace plumbline::validation {
 /// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
 
-/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h) may still lower the
-/// error: it makes up for something else. It stays in the best model, and is no name.
+/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h), or with which the
+/// held-out error rises, may still lower the error of what all trials leave open: it makes up for something
+/// else. It stays in the best model if that predicts better, and is no name.
 void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
                                 Diagnosis& diagnosis);
 
