@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "simulator/render/mesh_file.h"
+#include "simulator/mesh/mesh_file.h"
 
 namespace plumbline::render {
 namespace {
@@ -51,13 +51,13 @@ bool add_visual(const model::Visual& visual, int body, const Color& color, Figur
   part.body = body;
   part.X_BP = visual.X_BV;
   part.color = visual.color.value_or(color);
-  if (const auto* mesh = std::get_if<model::MeshShape>(&visual.shape)) {
-    MeshFile file = read_mesh(*mesh);
+  if (const auto* shape = std::get_if<model::MeshShape>(&visual.shape)) {
+    mesh::MeshFile file = mesh::read_mesh(shape->file, shape->scale);
     if (!file.problem.empty()) {
       figure.messages.push_back(file.problem + "; a stand-in is drawn");
       return false;
     }
-    part.solid = std::make_shared<const Mesh>(std::move(file.mesh));
+    part.solid = std::make_shared<const mesh::Mesh>(std::move(file.mesh));
   } else if (const auto* box = std::get_if<model::BoxShape>(&visual.shape)) {
     part.solid = *box;
   } else if (const auto* cylinder = std::get_if<model::CylinderShape>(&visual.shape)) {
@@ -86,7 +86,7 @@ Eigen::AlignedBox3d box_of(const Solid& solid) {
     return around(ellipsoid->radii);
   }
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : std::get<std::shared_ptr<const Mesh>>(solid)->points) {
+  for (const Eigen::Vector3d& point : std::get<std::shared_ptr<const mesh::Mesh>>(solid)->points) {
     box.extend(point);
   }
   return box;

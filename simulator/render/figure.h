@@ -8,16 +8,16 @@
 #include <variant>
 #include <vector>
 
+#include "simulator/mesh/mesh.h"
 #include "simulator/model/model.h"
 #include "simulator/model/visual.h"
-#include "simulator/render/mesh.h"
 #include "simulator/render/sticks.h"
 
 namespace plumbline::render {
 
 using Color = Eigen::Vector3d;  ///< red, green, blue, 0 to 1
 using Solid = std::variant<model::BoxShape, model::CylinderShape, model::SphereShape, model::EllipsoidShape,
-                           std::shared_ptr<const Mesh>>;
+                           std::shared_ptr<const mesh::Mesh>>;
 
 struct Part {
   int body = 0;  ///< index among the bodies whose poses a snapshot has

@@ -64,7 +64,7 @@ struct ToSurface {
     scale->Scale(ellipsoid.radii.data());
     return transformed(source->GetOutput(), scale);
   }
-  vtkSmartPointer<vtkPolyData> operator()(const std::shared_ptr<const Mesh>& mesh) const {
+  vtkSmartPointer<vtkPolyData> operator()(const std::shared_ptr<const mesh::Mesh>& mesh) const {
     vtkNew<vtkPoints> points;
     for (const Eigen::Vector3d& point : mesh->points) {
       points->InsertNextPoint(point.data());

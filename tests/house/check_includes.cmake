@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # What each part may include besides itself. Parts not named here may not exist.
 # scripts/draw_folders.py draws the same folders from their real includes.
-set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model simulator/integrate
+set(parts simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/mesh simulator/model simulator/integrate
     simulator/run simulator/render contact controllers work validation/identify validation/control validation/studies
     validation/report validation/api validation/batch validation/cli python tests)
 set(may_work)
@@ -14,14 +14,15 @@ set(may_simulator/trace)
 set(may_simulator/sensing)
 set(may_contact simulator/effects)
 set(may_simulator/rigid)
+set(may_simulator/mesh simulator/trace)
 set(may_simulator/integrate simulator/model simulator/rigid simulator/effects contact simulator/trace)
-set(may_simulator/model simulator/rigid simulator/effects contact simulator/trace)
+set(may_simulator/model simulator/rigid simulator/mesh simulator/effects contact simulator/trace)
 set(may_simulator/run simulator/integrate simulator/model simulator/rigid simulator/sensing simulator/effects contact simulator/trace controllers)
-set(may_simulator/render simulator/model simulator/trace)
+set(may_simulator/render simulator/mesh simulator/model simulator/trace)
 set(may_controllers)
 # The wings of validation, from below. What belongs to one paper is seen by the command line only: it can be removed.
 set(may_validation/identify simulator/effects simulator/trace simulator/sensing simulator/rigid simulator/model
-    simulator/integrate simulator/run simulator/render contact controllers work)
+    simulator/integrate simulator/run simulator/mesh simulator/render contact controllers work)
 set(may_validation/control ${may_validation/identify} validation/identify)
 set(may_validation/studies ${may_validation/control} validation/control)
 set(may_validation/report ${may_validation/control} validation/control)
@@ -46,7 +47,7 @@ set(header_mpi "^mpi\\.h$")
 set(seen_simbody simulator/model simulator/integrate tests)
 set(seen_sundials simulator/model simulator/integrate tests)
 set(seen_vtk simulator/render)
-set(seen_assimp simulator/render)
+set(seen_assimp simulator/mesh)
 set(seen_mpi work)
 
 # Parts that use nothing but the standard library and, where said, Eigen.

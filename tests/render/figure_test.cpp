@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "simulator/mesh/mesh_mass.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
-#include "simulator/render/mesh_mass.h"
 
 namespace plumbline::render {
 namespace {
@@ -29,7 +29,7 @@ TEST_F(FigureTest, MabelHasClosedMeshesOfItsOwn) {
   EXPECT_THAT(figure.messages, testing::IsEmpty());
   ASSERT_EQ(figure.parts.size(), mabel_.skeleton.bodies.size());
   for (const Part& part : figure.parts) {
-    EXPECT_TRUE(is_closed(*std::get<std::shared_ptr<const Mesh>>(part.solid)))
+    EXPECT_TRUE(mesh::is_closed(*std::get<std::shared_ptr<const mesh::Mesh>>(part.solid)))
         << mabel_.skeleton.bodies[static_cast<std::size_t>(part.body)].name;
   }
   // From hip to knee, from knee to toe: half a metre each (Table VI).

@@ -2,15 +2,15 @@
 
 #include <fmt/core.h>
 
+#include "simulator/mesh/mesh_file.h"
+#include "simulator/mesh/mesh_mass.h"
 #include "simulator/model/visual.h"
-#include "simulator/render/mesh_file.h"
-#include "simulator/render/mesh_mass.h"
 #include "validation/cli/output.h"
 
 namespace plumbline::cli {
 namespace {
 
-using render::Mesh;
+using mesh::Mesh;
 
 void append(const Mesh& part, const Eigen::Isometry3d& X, Mesh& whole) {
   const int first = static_cast<int>(whole.points.size());
@@ -26,13 +26,13 @@ void append(const Mesh& part, const Eigen::Isometry3d& X, Mesh& whole) {
 constexpr double kLightest = 1.0;
 constexpr double kHeaviest = 30000.0;
 
-void compare(const Mesh& mesh, const model::Body& body, double density, MeshOfBody& result) {
-  result.read = !mesh.triangles.empty();
-  result.closed = render::is_closed(mesh);
+void compare(const Mesh& whole, const model::Body& body, double density, MeshOfBody& result) {
+  result.read = !whole.triangles.empty();
+  result.closed = mesh::is_closed(whole);
   if (!result.closed) {
     return;
   }
-  const render::SolidProperties solid = render::solid_properties(mesh);
+  const mesh::SolidProperties solid = mesh::solid_properties(whole);
   result.volume = solid.volume;
   result.model_mass = body.mass;
   if (body.mass > 0.0 && solid.volume > 0.0) {
@@ -64,7 +64,7 @@ std::vector<MeshOfBody> meshes_of(const model::Model& model, double density) {
     Mesh whole;
     for (const model::Visual& visual : found->second) {
       if (const auto* shape = std::get_if<model::MeshShape>(&visual.shape)) {
-        const render::MeshFile file = render::read_mesh(*shape);
+        const mesh::MeshFile file = mesh::read_mesh(shape->file, shape->scale);
         append(file.mesh, visual.X_BV, whole);
         if (!file.problem.empty()) {
           result.problems.push_back(file.problem);

@@ -46,10 +46,10 @@ bool is_surely_better(const Refit& other, const Refit& than, const Data& data, c
 /// Contenders that predict as well as the best of them, or nearly: a simpler law is named before them. Far
 /// above the floor, where parameters make up for what else is missing, a law with fewer of them is near
 /// unless the best is surely better (Breiman et al. 1984: the simplest within the error of the estimate of
-/// the error).
+/// the error), and one of the same family at the same place for longer.
 std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
-                                   const Policy& policy) {
+                                   const TiedPlaces& places, const Policy& policy) {
   std::vector<std::size_t> near;
   if (contenders.empty()) {
     return near;
@@ -58,7 +58,8 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
   const bool is_far = !is_below(policy.far, best.estimate, data);
   for (const std::size_t i : contenders) {
     const bool is_simpler = is_far && refits[i].own < best.own;
-    if (together(refits[i]) < (1.0 + policy.simpler) * together(best) ||
+    const bool is_contained = is_simpler && is_of_family(refits[i], best, places);
+    if (together(refits[i]) < (1.0 + (is_contained ? policy.simpler_far : policy.simpler)) * together(best) ||
         (is_simpler && !is_surely_better(best, refits[i], data, policy))) {
       near.push_back(i);
     }
@@ -70,14 +71,15 @@ std::vector<std::size_t> near_best(const std::vector<Refit>& refits,
 /// from one that can be true. Only those that would win a share or the name are looked at, until none is
 /// refused.
 std::vector<std::size_t> without_refused(const Stage& stage, const std::vector<Refit>& refits,
-                                         const Data& data, const Policy& policy, Choice& choice) {
+                                         const Data& data, const TiedPlaces& places, const Policy& policy,
+                                         Choice& choice) {
   std::vector<std::size_t> contenders(refits.size());
   std::iota(contenders.begin(), contenders.end(), std::size_t{0});
   std::vector<bool> seen(refits.size(), false);
   for (bool all_seen = false; !all_seen;) {
     all_seen = true;
     choice.shares = selected_shares(stage, refits, contenders, data, policy);
-    std::vector<std::size_t> asked = near_best(refits, contenders, data, policy);
+    std::vector<std::size_t> asked = near_best(refits, contenders, data, places, policy);
     for (const std::size_t i : contenders) {
       if (choice.shares[i] > policy.fair) {
         asked.push_back(i);
@@ -149,11 +151,11 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   const TiedPlaces places(stage.model);
   choice.shares.assign(refits.size() + 1, 0.0);
   choice.objections.assign(refits.size(), "");
-  const std::vector<std::size_t> contenders = without_refused(stage, refits, data, policy, choice);
+  const std::vector<std::size_t> contenders = without_refused(stage, refits, data, places, policy, choice);
   if (contenders.empty()) {
     return choice;
   }
-  std::vector<std::size_t> near = near_best(refits, contenders, data, policy);
+  std::vector<std::size_t> near = near_best(refits, contenders, data, places, policy);
   for (const std::size_t i : contenders) {
     const bool is_near = std::find(near.begin(), near.end(), i) != near.end();
     if (is_near || is_of_family(refits[i], refits[contenders.front()], places)) {

@@ -32,6 +32,7 @@ const std::vector<PolicyConstant>& policy_constants() {
       {"nearer", &Policy::nearer, 1.0, kNever},
       {"material", &Policy::material, 0.0, 0.0},
       {"simpler", &Policy::simpler, 0.0, 0.0},
+      {"simpler_far", &Policy::simpler_far, 0.0, 0.02},
       {"stable", &Policy::stable, 1.0, 0.0},
       {"fair", &Policy::fair, 0.0, 0.0},
       {"told", &Policy::told, 0.0, 0.0},

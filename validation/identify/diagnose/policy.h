@@ -21,11 +21,12 @@ struct Policy {
   double nearer = 1.5;     ///< above it: to be sought on shorter windows, a law must promise this there
 
   // When a law is named.
-  double material = 0.05;  ///< least relative fall of the error that counts (held-out where there is one)
-  double simpler = 0.02;   ///< relative rise of the error at which a simpler law is still preferred
-  double stable = 0.7;     ///< least share of resamples that choose the effect, its family or a rival
-  double fair = 0.05;      ///< least share of resamples in which a law must be better to be a rival
-  double told = 2.0;       ///< deviations by which a strength differs from nothing
+  double material = 0.05;     ///< least relative fall of the error that counts (held-out where there is one)
+  double simpler = 0.02;      ///< relative rise of the error at which a simpler law is still preferred
+  double simpler_far = 0.25;  ///< the same above `far`, of two laws of one family at one place
+  double stable = 0.7;        ///< least share of resamples that choose the effect, its family or a rival
+  double fair = 0.05;         ///< least share of resamples in which a law must be better to be a rival
+  double told = 2.0;          ///< deviations by which a strength differs from nothing
 
   // The model's own parameters.
   double parameter_width = 3.0;  ///< stated standard deviations that they may move

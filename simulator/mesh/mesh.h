@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 
 /// Points in m; each triangle names three of them, counter-clockwise seen from outside.
 struct Mesh {
@@ -13,4 +13,4 @@ struct Mesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

@@ -1,13 +1,13 @@
 // Good meshes in four formats, and everything that can be wrong with one.
-#include "simulator/render/mesh_file.h"
+#include "simulator/mesh/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulator/render/mesh_mass.h"
+#include "simulator/mesh/mesh_mass.h"
 #include "tests/trace/temporary_folder.h"
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 namespace {
 
 using testing::HasSubstr;
@@ -57,7 +57,7 @@ class MeshFileTest : public testing::Test {
  protected:
   MeshFile read(const std::string& name, const std::string& text,
                 const Eigen::Vector3d& scale = kMetres) const {
-    return read_mesh({folder_.write(name, text), scale});
+    return read_mesh(folder_.write(name, text), scale);
   }
   std::string problem(const std::string& text) const { return read("bad.obj", text).problem; }
 
@@ -90,7 +90,7 @@ TEST_F(MeshFileTest, ScaleWorksAxisByAxisAndAMirrorKeepsTheOutsideOut) {
 }
 
 TEST_F(MeshFileTest, EveryProblemIsOneLineWithTheFile) {
-  const MeshFile missing = read_mesh({folder_.path("none.stl"), kMetres});
+  const MeshFile missing = read_mesh(folder_.path("none.stl"), kMetres);
   EXPECT_EQ(missing.problem, folder_.path("none.stl") + ": mesh: found no such file, expected a mesh");
   EXPECT_THAT(problem("this is no mesh\n"), StartsWith(folder_.path("bad.obj") + ": mesh: found "));
   EXPECT_THAT(problem(""), HasSubstr("nothing that can be read"));
@@ -112,4 +112,4 @@ TEST_F(MeshFileTest, MillimetresWithTheirScaleAreGood) {
 }
 
 }  // namespace
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

@@ -1,4 +1,4 @@
-#include "simulator/render/mesh_file.h"
+#include "simulator/mesh/mesh_file.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -12,7 +12,7 @@
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 namespace {
 
 constexpr std::size_t kMostTriangles = 2'000'000;
@@ -85,12 +85,12 @@ void check(const Mesh& mesh) {
   }
 }
 
-Mesh load(const model::MeshShape& shape) {
+Mesh load(const std::string& path, const Eigen::Vector3d& scale) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(shape.file, none)) {
+  if (!std::filesystem::is_regular_file(path, none)) {
     throw Trouble{"no such file", "a mesh"};
   }
-  if (std::filesystem::file_size(shape.file, none) > kMostBytes) {
+  if (std::filesystem::file_size(path, none) > kMostBytes) {
     throw Trouble{"more than 500 MB", "a smaller mesh"};
   }
   Assimp::Importer importer;
@@ -101,14 +101,14 @@ Mesh load(const model::MeshShape& shape) {
                                   aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_MATERIALS);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(
-      shape.file, static_cast<unsigned>(aiProcess_Triangulate | aiProcess_SortByPType |
-                                        aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices));
+      path, static_cast<unsigned>(aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent |
+                                  aiProcess_JoinIdenticalVertices));
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Trouble{std::string("nothing that can be read (") + importer.GetErrorString() + ")",
                   "a mesh as OBJ, STL, DAE or glTF"};
   }
   Mesh mesh;
-  append(*scene, *scene->mRootNode, aiMatrix4x4(), shape.scale, mesh);
+  append(*scene, *scene->mRootNode, aiMatrix4x4(), scale, mesh);
   return mesh;
 }
 
@@ -121,11 +121,11 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-MeshFile read_mesh(const model::MeshShape& shape) {
+MeshFile read_mesh(const std::string& path, const Eigen::Vector3d& scale) {
   MeshFile result;
   Trouble trouble;
   try {
-    result.mesh = load(shape);
+    result.mesh = load(path, scale);
     check(result.mesh);
     return result;
   } catch (const Trouble& found) {
@@ -133,7 +133,7 @@ MeshFile read_mesh(const model::MeshShape& shape) {
   } catch (const std::exception& error) {
     trouble = {std::string("nothing that can be read (") + error.what() + ")", "a mesh"};
   }
-  return {{}, one_line(InputError({shape.file, 0, "mesh"}, trouble.found, trouble.expected).what())};
+  return {{}, one_line(InputError({path, 0, "mesh"}, trouble.found, trouble.expected).what())};
 }
 
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

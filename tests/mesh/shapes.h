@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "simulator/render/mesh.h"
+#include "simulator/mesh/mesh.h"
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 
 /// One corner at `low`, the opposite one at `high`.
 inline Mesh box_mesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -60,4 +60,4 @@ inline Mesh sphere_mesh(double radius, int times) {
   return mesh;
 }
 
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

@@ -1,10 +1,10 @@
-#include "simulator/render/mesh_mass.h"
+#include "simulator/mesh/mesh_mass.h"
 
 #include <Eigen/LU>
 #include <map>
 #include <utility>
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 
 bool is_closed(const Mesh& mesh) {
   std::map<std::pair<int, int>, int> balance;  // of each edge, up less down
@@ -55,4 +55,4 @@ SolidProperties solid_properties(const Mesh& mesh) {
   return solid;
 }
 
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "simulator/render/mesh.h"
+#include "simulator/mesh/mesh.h"
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 
 /// Of a solid with density 1.
 struct SolidProperties {
@@ -26,4 +26,4 @@ bool is_closed(const Mesh& mesh);
 /// faces inward gives the same solid.
 SolidProperties solid_properties(const Mesh& mesh);
 
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh

@@ -1,13 +1,13 @@
 // Volume, centre and inertia of closed meshes against closed forms.
-#include "simulator/render/mesh_mass.h"
+#include "simulator/mesh/mesh_mass.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "tests/render/shapes.h"
+#include "tests/mesh/shapes.h"
 
-namespace plumbline::render {
+namespace plumbline::mesh {
 namespace {
 
 // Rounding of sums over at most 10^5 triangles.
@@ -88,4 +88,4 @@ TEST(MeshMass, AHoleAndATurnedTriangleOpenTheSurface) {
 }
 
 }  // namespace
-}  // namespace plumbline::render
+}  // namespace plumbline::mesh
