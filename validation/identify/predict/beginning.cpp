@@ -57,7 +57,13 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   if (!trial_.start.empty()) {
     fall_freely(window, x);
   } else if (trial_.switches.empty() && plant_.meets_ground()) {
-    stand_on_ground(plant_, from_channels_.deviations(), x);
+    const Eigen::VectorXd deviations = from_channels_.deviations();
+    const std::vector<Eigen::Index> unseen = unseen_positions(deviations);
+    if (unseen.empty()) {
+      stand_on_ground(plant_, deviations, x);
+    } else {
+      stand_by_unseen(plant_, unseen, x);
+    }
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
