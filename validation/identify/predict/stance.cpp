@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "contact/contact_law.h"
@@ -222,6 +223,47 @@ void keep_feet_still(model::Plant& plant, const std::vector<Eigen::Index>& unsee
 void stand_by_unseen(model::Plant& plant, const std::vector<Eigen::Index>& unseen, Eigen::VectorXd& x) {
   carry_weight(plant, unseen, x);
   keep_feet_still(plant, unseen, x);
+}
+
+namespace {
+
+/// Where the law's state k comes to rest while the foot slides along either axis: its rate is linear in it.
+double bent_by_sliding(const contact::TangentialLaw& law, const effects::Values& p, std::size_t k) {
+  constexpr double kSmall = 1e-9;  // m
+  double most = 0.0;
+  for (const Eigen::Vector2d& slip : {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)}) {
+    std::vector<double> state(static_cast<std::size_t>(law.state_count()), 0.0);
+    std::vector<double> straight = state;
+    std::vector<double> bent = state;
+    law.state_rate(slip, 1.0, state.data(), p.data(), straight.data());
+    state[k] = kSmall;
+    law.state_rate(slip, 1.0, state.data(), p.data(), bent.data());
+    const double slope = (bent[k] - straight[k]) / kSmall;
+    if (slope < 0.0) {
+      most = std::max(most, std::abs(straight[k] / slope));
+    }
+  }
+  return most > 0.0 ? most : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Eigen::VectorXd bent_by_sliding(const model::Plant& plant) {
+  const std::vector<std::string> names = plant.state_names();
+  Eigen::VectorXd reach = Eigen::VectorXd::Constant(plant.states(), std::numeric_limits<double>::infinity());
+  for (const model::EffectUse& use : plant.model().effects) {
+    const auto* law = dynamic_cast<const contact::TangentialLaw*>(use.law.get());
+    const std::size_t count = law != nullptr ? law->declaration().states.size() : 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::string name = law->declaration().states[k] + " of " + use.label();  // behind it the foot
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == name || names[i].rfind(name + " (", 0) == 0) {
+          reach[static_cast<Eigen::Index>(i)] = bent_by_sliding(*law, use.numbers(), k);
+        }
+      }
+    }
+  }
+  return reach;
 }
 
 }  // namespace plumbline::validation

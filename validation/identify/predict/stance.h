@@ -32,4 +32,8 @@ std::vector<Eigen::Index> unseen_positions(const Eigen::VectorXd& deviations);
 /// Along the ground it stays where it is: on level ground nothing depends on that.
 void stand_by_unseen(model::Plant& plant, const std::vector<Eigen::Index>& unseen, Eigen::VectorXd& x);
 
+/// How far steady sliding bends the bristles of the feet, m, for each state of the plant; infinite for all
+/// others. Bristles that are bent less never bend further: no foot that holds begins beyond this.
+Eigen::VectorXd bent_by_sliding(const model::Plant& plant);
+
 }  // namespace plumbline::validation
