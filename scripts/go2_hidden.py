@@ -149,8 +149,8 @@ GROUND = """
   - effect: ground_friction
     at: feet
     values:
-      bristle_stiffness: {value: 3000, unit: 1/m, assumed: "stiff rubber"}
-      bristle_damping: {value: 3, unit: s/m, assumed: "stiff rubber"}
+      bristle_stiffness: {value: 20000, unit: 1/m, assumed: "stiff rubber"}
+      bristle_damping: {value: 10, unit: s/m, assumed: "stiff rubber"}
       friction: {value: 0.8, unit: "1", assumed: "rubber"}
 
 """
