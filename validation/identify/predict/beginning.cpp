@@ -57,7 +57,13 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   if (!trial_.start.empty()) {
     fall_freely(window, x);
   } else if (trial_.switches.empty() && plant_.meets_ground()) {
-    stand_on_ground(plant_, from_channels_.deviations(), x);
+    const Eigen::VectorXd deviations = from_channels_.deviations();
+    const std::vector<Eigen::Index> unseen = unseen_positions(deviations);
+    if (unseen.empty()) {
+      stand_on_ground(plant_, deviations, x);
+    } else {
+      stand_by_unseen(plant_, unseen, x);
+    }
   }
   Eigen::VectorXd command(plant_.motors());
   commands_->at(window.first, 0, command.data());
@@ -169,8 +175,9 @@ Eigen::VectorXd Predictor::spread_around(const Eigen::VectorXd& x) const {
     spread.head(nz) = from_channels_.deviations();
     spread.segment(nz, nz) = spread.head(nz) / kRest;
   }
+  const Eigen::VectorXd bent = bent_by_sliding(plant_);
   for (Eigen::Index i = 2 * nz; i < x.size(); ++i) {
-    spread[i] = 1.0 + std::abs(x[i]);
+    spread[i] = std::isfinite(bent[i]) ? bent[i] : 1.0 + std::abs(x[i]);
   }
   for (const int i : plant_.carried_states()) {
     spread[i] = 1e-9 * spread[i];  // not free: the past determines them
@@ -181,9 +188,14 @@ Eigen::VectorXd Predictor::spread_around(const Eigen::VectorXd& x) const {
 Predictor::Anchor Predictor::anchor(const Window& window, const Eigen::VectorXd& x0,
                                     const Eigen::VectorXd& r) {
   const double rms = std::sqrt(r.squaredNorm() / static_cast<double>(r.size()));
-  const double error = trial_.start.empty() ? 1.0 : std::max(1.0, rms);
+  const double error = std::max(1.0, rms);
   const Eigen::VectorXd expected = initial_state(window);
-  const Eigen::VectorXd weight = error * spread_around(expected).cwiseInverse();
+  Eigen::VectorXd weight = spread_around(expected).cwiseInverse();
+  if (!trial_.start.empty()) {
+    weight *= error;
+  } else {  // nor are bristles bent further than sliding bends them
+    weight = bent_by_sliding(plant_).array().isFinite().select(error * weight, weight);
+  }
   return {weight.cwiseProduct(expected - x0), weight};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "simulator/model/plant.h"
 
@@ -18,5 +19,21 @@ namespace plumbline::validation {
 /// that moves fast and is deeper than r is lifted to just touch. The next step of a search may move all this
 /// again.
 void stand_on_ground(model::Plant& plant, const Eigen::VectorXd& deviations, Eigen::VectorXd& x);
+
+/// The independent positions of which no sensor says anything: those whose deviation is null
+/// (model::PositionsFrom). Of a robot that floats and logs encoders and an inertial unit: where its base is.
+std::vector<Eigen::Index> unseen_positions(const Eigen::VectorXd& deviations);
+
+/// Puts a robot on the ground by what no sensor shows, and by nothing else. Its unseen positions move along
+/// the mean slope of the feet's depths until the ground carries the weight at rest,
+///   sum_f N_f(depth_f, 0) = m g,
+/// and its unseen velocities are those with which the feet that carry it are stillest,
+///   min sum_f N_f |v_f|^2.
+/// Along the ground it stays where it is: on level ground nothing depends on that.
+void stand_by_unseen(model::Plant& plant, const std::vector<Eigen::Index>& unseen, Eigen::VectorXd& x);
+
+/// How far steady sliding bends the bristles of the feet, m, for each state of the plant; infinite for all
+/// others. Bristles that are bent less never bend further: no foot that holds begins beyond this.
+Eigen::VectorXd bent_by_sliding(const model::Plant& plant);
 
 }  // namespace plumbline::validation
