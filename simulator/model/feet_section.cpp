@@ -1,10 +1,15 @@
-// The model's feet: points, spheres and boxes of links.
+// The model's feet: points, spheres, boxes and convex meshes of links.
 #include <algorithm>
 
+#include "simulator/mesh/convex.h"
+#include "simulator/mesh/mesh_file.h"
+#include "simulator/mesh/mesh_mass.h"
 #include "simulator/model/frames_in_file.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/model_sections.h"
 #include "simulator/model/quantity.h"
+#include "simulator/model/yaml_chain.h"
+#include "simulator/trace/number_text.h"
 #include "simulator/trace/units.h"
 
 namespace plumbline::model {
@@ -52,6 +57,46 @@ void add_box(const YamlNode& box, double scale, const Foot& centre, Model& model
     foot.name = centre.name + "_" + std::to_string(corner + 1);
     foot.group = centre.group.empty() ? centre.name : centre.group;
     foot.point += side.cwiseProduct(edges);
+    model.feet.push_back(foot);
+  }
+}
+
+/// A closed and convex mesh that may serve as feet, in m.
+mesh::Mesh convex_mesh(const YamlNode& node, double scale) {
+  constexpr std::size_t kMostPoints = 200;  // each of them is asked in every evaluation
+  constexpr double kFlat = 1e-4;            // of the mesh's size: what rounding leaves of a plane
+  mesh::MeshFile read = mesh::read_mesh(beside(node.file(), node.text()), Vector3d::Constant(scale));
+  if (!read.problem.empty()) {
+    node.refuse(read.problem, "a mesh that can be used");
+  }
+  if (!mesh::is_closed(read.mesh)) {
+    node.refuse("a mesh that is not closed", "the surface of a solid");
+  }
+  if (read.mesh.points.size() > kMostPoints) {
+    node.refuse("a mesh of " + std::to_string(read.mesh.points.size()) + " points",
+                "at most " + std::to_string(kMostPoints) + ": a coarser one");
+  }
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : read.mesh.points) {
+    box.extend(point);
+  }
+  const double dent = mesh::largest_dent(read.mesh);
+  if (dent > kFlat * box.sizes().maxCoeff()) {
+    node.refuse("a mesh with a dent of " + number_text(dent, 3) + " m",
+                "a convex one: its hull, or its parts");
+  }
+  return std::move(read.mesh);
+}
+
+/// The points of a convex mesh, whose axes are the link's, as feet of one group: on a plane nothing else of
+/// it touches first.
+void add_mesh(const YamlNode& node, double scale, const Foot& origin, Model& model) {
+  int count = 0;
+  for (const Vector3d& point : convex_mesh(node, scale).points) {
+    Foot foot = origin;
+    foot.name = origin.name + "_" + std::to_string(++count);
+    foot.group = origin.group.empty() ? origin.name : origin.group;
+    foot.point += point;
     model.feet.push_back(foot);
   }
 }
@@ -116,7 +161,7 @@ void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
     add_capsule(*capsule, name, group, model);
     return;
   }
-  entry.allow_keys({"link", "value", "unit", "radius", "box", "group", "source", "assumed"});
+  entry.allow_keys({"link", "value", "unit", "radius", "box", "mesh", "group", "source", "assumed"});
   Foot foot;
   foot.name = name;
   foot.body = link_of(entry, model);
@@ -129,6 +174,10 @@ void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
   }
   if (const auto box = entry.find("box")) {
     add_box(*box, scale, foot, model);
+    return;
+  }
+  if (const auto mesh = entry.find("mesh")) {
+    add_mesh(*mesh, scale, foot, model);
     return;
   }
   model.feet.push_back(std::move(foot));

@@ -126,6 +126,33 @@ TEST_F(FeetTest, EnergyIsAccountedForWhileTheFootSlidesAndComesToRest) {
   EXPECT_LT(touch.velocity.norm(), 1e-5);
 }
 
+constexpr const char* kSurface = "f 1 3 2\nf 1 2 4\nf 1 4 3\n";
+constexpr const char* kCorners = "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\n";
+const char* const kShoe = "{link: block, value: [10, 0, -300], unit: mm, mesh: shoe.obj, assumed: test}";
+
+TEST_F(FeetTest, ThePointsOfAConvexMeshAreFeetOfOneGroup) {
+  folder_.write("shoe.obj", std::string(kCorners) + kSurface + "f 2 3 4\n");
+  const Model shod = model(9.81, kShoe, ground(0.0, false));
+  ASSERT_EQ(shod.feet.size(), 4U);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Foot& foot : shod.feet) {
+    EXPECT_EQ(foot.group, "foot");
+    EXPECT_EQ(foot.radius, 0.0);
+    sum += foot.point;
+  }
+  EXPECT_LT((sum - Eigen::Vector3d(0.1, 0.06, -1.14)).norm(), 1e-7);
+}
+
+TEST_F(FeetTest, AMeshThatIsOpenOrDentedIsRefused) {
+  folder_.write("shoe.obj", std::string(kCorners) + kSurface);
+  EXPECT_THAT(refusal(kShoe), AllOf(HasSubstr("model.yaml:9"), HasSubstr("a mesh that is not closed")));
+  folder_.write("shoe.obj",
+                std::string(kCorners) + "v 10 10 10\n" + kSurface + "f 2 3 5\nf 3 4 5\nf 4 2 5\n");
+  EXPECT_THAT(refusal(kShoe), HasSubstr("a mesh with a dent of 0.0173 m, expected a convex one"));
+  EXPECT_THAT(refusal("{link: block, value: [0, 0, 0], unit: m, mesh: none.stl, assumed: test}"),
+              HasSubstr("no such file"));
+}
+
 // At constant load LuGre slides with force friction + viscous * v.
 TEST_F(FeetTest, FrictionOpposesTheSlip) {
   Plant plant(model(9.81, kFoot, ground(3e5, true)), {});
