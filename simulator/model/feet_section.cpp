@@ -82,7 +82,7 @@ mesh::Mesh convex_mesh(const YamlNode& node, double scale) {
   }
   const double dent = mesh::largest_dent(read.mesh);
   if (dent > kFlat * box.sizes().maxCoeff()) {
-    node.refuse("a mesh with a dent of " + number_text(dent, 3) + " m",
+    node.refuse("a mesh with a point " + number_text(dent, 3) + " m in front of one of its faces",
                 "a convex one: its hull, or its parts");
   }
   return std::move(read.mesh);

@@ -143,12 +143,15 @@ TEST_F(FeetTest, ThePointsOfAConvexMeshAreFeetOfOneGroup) {
   EXPECT_LT((sum - Eigen::Vector3d(0.1, 0.06, -1.14)).norm(), 1e-7);
 }
 
+// With a fifth point at (10, 10, 10) mm in place of a face: the plane of (60, 0, 0), (0, 60, 0) and it has
+// the normal (1, 1, 4), and (0, 0, 60) lies 180 mm/sqrt(18) in front of it.
 TEST_F(FeetTest, AMeshThatIsOpenOrDentedIsRefused) {
   folder_.write("shoe.obj", std::string(kCorners) + kSurface);
   EXPECT_THAT(refusal(kShoe), AllOf(HasSubstr("model.yaml:9"), HasSubstr("a mesh that is not closed")));
   folder_.write("shoe.obj",
                 std::string(kCorners) + "v 10 10 10\n" + kSurface + "f 2 3 5\nf 3 4 5\nf 4 2 5\n");
-  EXPECT_THAT(refusal(kShoe), HasSubstr("a mesh with a dent of 0.0173 m, expected a convex one"));
+  EXPECT_THAT(refusal(kShoe),
+              HasSubstr("a point 0.0424 m in front of one of its faces, expected a convex one"));
   EXPECT_THAT(refusal("{link: block, value: [0, 0, 0], unit: m, mesh: none.stl, assumed: test}"),
               HasSubstr("no such file"));
 }

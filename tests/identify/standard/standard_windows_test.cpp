@@ -65,7 +65,7 @@ TEST(StandardWindows, RestOnTheKindThatIsWrong) {
   EXPECT_GT(drives->scores.held_out, 2.0 * all->scores.held_out);
   const std::vector<KindShare> shares = kind_shares(*all, data.thinned(4));
   ASSERT_EQ(shares.size(), 4U);
-  EXPECT_EQ(shares.front().kind, "masses and centres of mass");
+  EXPECT_EQ(shares.front().kind, "masses, centres of mass and inertias");
   EXPECT_GT(shares.front().without, 5.0 * all->scores.held_out);
   for (const KindShare& one : shares) {
     EXPECT_TRUE(one.kind != "friction" || one.without < shares.front().without / 3.0) << one.without;
