@@ -16,7 +16,7 @@ const Declaration& LinkInertia::declaration() const {
   static const Declaration kDeclaration{
       "link_inertia",
       "an inertia tensor that is not what was stated, at the same mass and centre of mass",
-      "the body's matter stretched by e^x, e^y, e^z along its axes, and sheared",
+      "the body's matter moved by F = [e^x 0 0; xy e^y 0; xz yz e^z] about its centre of mass",
       "Wensing, Kim and Slotine, Linear matrix inequalities for physically consistent inertial parameter "
       "identification, IEEE Robotics and Automation Letters 3(1), 2018",
       {Place::body},
