@@ -1,6 +1,8 @@
 #include "simulator/mesh/mesh_mass.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -47,12 +49,29 @@ SolidProperties solid_properties(const Mesh& mesh) {
     return solid;
   }
   const double sign = volume < 0.0 ? -1.0 : 1.0;
+  solid.faces_inward = volume < 0.0;
   solid.volume = sign * volume;
   const Eigen::Vector3d center = first / volume;
   const Eigen::Matrix3d central = sign * second - solid.volume * center * center.transpose();
   solid.inertia = central.trace() * Eigen::Matrix3d::Identity() - central;
   solid.center = base + center;
   return solid;
+}
+
+double largest_dent(const Mesh& mesh) {
+  const double outward = solid_properties(mesh).faces_inward ? -1.0 : 1.0;
+  double dent = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d& corner = mesh.points[static_cast<std::size_t>(a)];
+    const Eigen::Vector3d normal = (mesh.points[static_cast<std::size_t>(b)] - corner)
+                                       .cross(mesh.points[static_cast<std::size_t>(c)] - corner);
+    if (normal.norm() > 0.0) {
+      for (const Eigen::Vector3d& point : mesh.points) {
+        dent = std::max(dent, outward * normal.normalized().dot(point - corner));
+      }
+    }
+  }
+  return dent;
 }
 
 }  // namespace plumbline::mesh

@@ -1,4 +1,4 @@
-// Volume, centre and inertia of what a closed mesh encloses.
+// Volume, centre and inertia of what a closed mesh encloses, and whether that is convex.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@ namespace plumbline::mesh {
 
 /// Of a solid with density 1.
 struct SolidProperties {
+  bool faces_inward = false;                          ///< its triangles are clockwise seen from outside
   double volume = 0.0;                                ///< m^3
   Eigen::Vector3d center = Eigen::Vector3d::Zero();   ///< of mass, in the mesh's frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, per density, m^5
@@ -25,5 +26,10 @@ bool is_closed(const Mesh& mesh);
 /// coordinates", J. Mathematics and Statistics 1 (2005). Meaningful only when is_closed(). A surface that
 /// faces inward gives the same solid.
 SolidProperties solid_properties(const Mesh& mesh);
+
+/// How far a point of the mesh lies in front of the plane of one of its triangles at most, m: 0 of a convex
+/// solid, but for rounding. A surface that faces inward is taken for the solid that it encloses. Meaningful
+/// only when is_closed(); takes points times triangles.
+double largest_dent(const Mesh& mesh);
 
 }  // namespace plumbline::mesh

@@ -1,7 +1,6 @@
 // The model's feet: points, spheres, boxes and convex meshes of links.
 #include <algorithm>
 
-#include "simulator/mesh/convex.h"
 #include "simulator/mesh/mesh_file.h"
 #include "simulator/mesh/mesh_mass.h"
 #include "simulator/model/frames_in_file.h"
