@@ -44,23 +44,29 @@ const model::EffectUse* normal_law_at(const model::Model& model, const model::Fo
   return found == model.effects.end() ? nullptr : &*found;
 }
 
-/// The depth at which a foot carries `weight`, by bisection; 0 where it has no law.
-double resting_depth(const model::Model& model, const model::Foot& foot, double weight) {
-  constexpr double kDeepest = 0.1;  // m
+/// The depth between `low` and `high` at which `weight` is carried, by bisection, from below.
+template <typename Force>
+double depth_that_carries(double weight, double low, double high, const Force& carried_at) {
   constexpr int kHalvings = 40;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (carried_at(middle) < weight ? low : high) = middle;
+  }
+  return low;
+}
+
+constexpr double kDeepest = 0.1;  // m: no foot rests deeper
+
+/// The depth at which a foot carries `weight`; 0 where it has no law.
+double resting_depth(const model::Model& model, const model::Foot& foot, double weight) {
   const model::EffectUse* use = normal_law_at(model, foot);
   if (use == nullptr) {
     return 0.0;
   }
   const auto& law = dynamic_cast<const contact::NormalLaw&>(*use->law);
   const effects::Values p = use->numbers();
-  double low = 0.0;
-  double high = kDeepest;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (law.force(middle, 0.0, p.data()) < weight ? low : high) = middle;
-  }
-  return low;
+  return depth_that_carries(weight, 0.0, kDeepest,
+                            [&](double depth) { return law.force(depth, 0.0, p.data()); });
 }
 
 double weight_of(const model::Model& model) {
@@ -163,8 +169,7 @@ Eigen::VectorXd way_down(model::Plant& plant, const std::vector<Eigen::Index>& u
 
 void carry_weight(model::Plant& plant, const std::vector<Eigen::Index>& unseen, Eigen::VectorXd& x) {
   constexpr double kNone = 1e-6;
-  constexpr double kFirst = 1e-6, kDeepest = 0.1;  // m
-  constexpr int kHalvings = 40;
+  constexpr double kFirst = 1e-6;  // m
   Eigen::VectorXd way = way_down(plant, unseen, x);
   if (way.squaredNorm() < kNone) {
     return;
@@ -182,12 +187,7 @@ void carry_weight(model::Plant& plant, const std::vector<Eigen::Index>& unseen, 
   while (high < kDeepest && carried_at(high) < weight) {
     high *= 2.0;
   }
-  double low = 0.0;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (carried_at(middle) < weight ? low : high) = middle;
-  }
-  x.head(nz) += low * way;
+  x.head(nz) += depth_that_carries(weight, 0.0, high, carried_at) * way;
 }
 
 /// Velocities of the feet that carry, each times the root of its share; 3 x feet, one behind the other.
