@@ -109,6 +109,48 @@ TEST_F(NewModel, TakesTheActuatorsAndTheNoiseOfAnMjcfFile) {
   succeed({"check", "model.yaml"});
 }
 
+// A pendulum that hangs on a free pivot: the file's transmissions say which joint is driven, the log has no
+// command of the other, and both joints have "joint" within their names.
+class FreePivot : public NewModel {
+ protected:
+  void SetUp() override {
+    NewModel::SetUp();
+    std::string arm = read("arm.urdf");
+    arm.replace(arm.find("\"swing\""), 7, "\"upper_joint_1\"");
+    arm.insert(
+        arm.find("</robot>"),
+        "<link name=\"tip\"><inertial><origin xyz=\"0 0 -0.1\"/><mass value=\"1\"/><inertia ixx=\"0.01\" "
+        "iyy=\"0.01\" izz=\"0.001\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n"
+        "<joint name=\"lower_joint_2\" type=\"continuous\"><parent link=\"bar\"/><child link=\"tip\"/>\n"
+        "<origin xyz=\"0 0 -0.5\"/><axis xyz=\"0 1 0\"/></joint>");
+    write("plain.urdf", arm);
+    arm.insert(arm.find("</robot>"),
+               "<transmission name=\"drive\"><joint name=\"lower_joint_2\"/></transmission>");
+    write("free.urdf", arm);
+    std::ostringstream text;
+    text << "t [s],upper_joint_1_pos [rad],lower_joint_2_pos [rad],lower_joint_2_torque [N m]\n";
+    for (int i = 0; i < 500; ++i) {
+      text << 0.01 * i << ',' << 0.1 * std::sin(0.05 * i) << ',' << 0.2 * std::sin(0.04 * i) << ','
+           << 0.3 * std::cos(0.04 * i) << '\n';
+    }
+    write("free.csv", text.str());
+  }
+};
+
+TEST_F(FreePivot, HasNoMotorWhereTheFileHasNoTransmission) {
+  succeed({"new-model", "free.urdf", "--out", "model.yaml"});
+  EXPECT_THAT(read("model.yaml"), HasSubstr("lower_joint_2_motor"));
+  EXPECT_THAT(read("model.yaml"), testing::Not(HasSubstr("upper_joint_1_motor")));
+}
+
+TEST_F(FreePivot, HasNoMotorWhereTheLogHasNoCommand) {
+  const Outcome made = succeed({"new-model", "plain.urdf", "--from", "free.csv", "--out", "model.yaml"});
+  EXPECT_THAT(made.out, HasSubstr("Joint upper_joint_1: neither the file nor the log has a drive of it"));
+  EXPECT_THAT(read("model.yaml"), testing::Not(HasSubstr("upper_joint_1_motor")));
+  EXPECT_THAT(read("free_train/trial.yaml"), HasSubstr("upper_joint_1: {column: \"upper_joint_1_pos\""));
+  succeed({"compare", "free_train", "free_held_out"});
+}
+
 TEST_F(NewModel, SaysWhichJointAnActuatorMisses) {
   write("leg.xml",
         "<mujoco><worldbody><body><joint name=\"hip\"/><geom size=\"0.05\"/></body></worldbody>\n"

@@ -8,6 +8,7 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/model/urdf_drives.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
@@ -253,6 +254,10 @@ void describe(const Plan& plan, NewModel& result) {
       result.remarks.push_back(
           "Joint " + one.joint->name +
           ": the log has no column of it, and the trials hold it still at zero (`locked`).");
+    } else if (!plan.is_driven(one)) {
+      result.remarks.push_back(
+          "Joint " + one.joint->name +
+          ": neither the file nor the log has a drive of it, so the model has no motor there.");
     }
   }
   for (const std::string& sentence : plan.skeleton->left_out) {
@@ -276,6 +281,7 @@ NewModel new_model(const NewModelWish& wish) {
   const model::MjcfDrives drives =
       model::is_mjcf(wish.skeleton) ? model::read_mjcf_drives(wish.skeleton) : model::MjcfDrives{};
   add_drives(drives, plan.joints);
+  add_transmissions(model::urdf_driven_joints(wish.skeleton), plan.joints);
   if (plan.joints.empty()) {
     throw InputError({wish.skeleton, 0, ""}, "no moving joint", "a skeleton with one");
   }

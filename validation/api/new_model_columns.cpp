@@ -82,6 +82,16 @@ bool fits(const ColumnLook& column, ColumnRole role, const JointColumns& joint,
           (role == ColumnRole::command && unit_fits(column, command_unit_at(command_unit, joint.angular))));
 }
 
+/// What the column holds of the joint's name: all of it, else its stem; empty: neither.
+std::string held_of(const std::string& column, const std::string& joint) {
+  for (const std::string& name : {bare(joint), stem_of(joint)}) {
+    if (find_stem(column, name) != std::string::npos) {
+      return name;
+    }
+  }
+  return "";
+}
+
 /// The joint whose name the column holds: as it stands, else the longest; nullptr: none.
 JointColumns* owner_of(const std::string& column, std::vector<JointColumns>& joints) {
   JointColumns* owner = nullptr;
@@ -90,10 +100,10 @@ JointColumns* owner_of(const std::string& column, std::vector<JointColumns>& joi
     if (column == joint.joint) {
       return &joint;
     }
-    const std::string stem = stem_of(joint.joint);
-    if (stem.size() > longest && find_stem(bare(column), stem) != std::string::npos) {
+    const std::string held = held_of(bare(column), joint.joint);
+    if (held.size() > longest) {
       owner = &joint;
-      longest = stem.size();
+      longest = held.size();
     }
   }
   return owner;
@@ -104,9 +114,8 @@ std::string rest_of(const std::string& column, const std::string& joint) {
     return "";
   }
   std::string rest = bare(column);
-  const std::string whole = bare(joint);
-  const std::string stem = find_stem(rest, whole) != std::string::npos ? whole : stem_of(joint);
-  rest.erase(find_stem(rest, stem), stem.size());
+  const std::string held = held_of(rest, joint);
+  rest.erase(find_stem(rest, held), held.size());
   return rest;
 }
 

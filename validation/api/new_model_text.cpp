@@ -440,6 +440,7 @@ void add_drives(const model::MjcfDrives& drives, std::vector<PlannedJoint>& join
     for (const model::MjcfActuator& actuator : drives.actuators) {
       if (actuator.joint == one.joint->name && one.actuator == nullptr) {
         one.actuator = &actuator;
+        one.has_drive = true;
       }
     }
     const auto noise = drives.position_noise.find(one.joint->name);
@@ -447,10 +448,18 @@ void add_drives(const model::MjcfDrives& drives, std::vector<PlannedJoint>& join
   }
 }
 
+void add_transmissions(const std::set<std::string>& driven, std::vector<PlannedJoint>& joints) {
+  for (PlannedJoint& one : joints) {
+    one.has_drive = one.has_drive || driven.count(one.joint->name) != 0;
+  }
+}
+
 bool Plan::is_driven(const PlannedJoint& one) const {
-  return one.actuator != nullptr || one.columns.command >= 0 ||
-         std::none_of(joints.begin(), joints.end(),
-                      [](const PlannedJoint& joint) { return joint.actuator != nullptr; });
+  const auto said = [](const PlannedJoint& joint) { return joint.has_drive || joint.columns.command >= 0; };
+  const bool file_says =
+      std::any_of(joints.begin(), joints.end(), [](const PlannedJoint& joint) { return joint.has_drive; });
+  const bool nothing_known = std::none_of(joints.begin(), joints.end(), said);
+  return said(one) || nothing_known || (!file_says && is_held(one));
 }
 
 bool Plan::is_held(const PlannedJoint& one) const {

@@ -1,6 +1,7 @@
 // The texts that `plumbline new-model` writes.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PlannedJoint {
   const model::Joint* joint = nullptr;
   JointColumns columns;
   std::string coordinate, motor;
+  bool has_drive = false;  ///< by the file: an actuator (MJCF) or a transmission (URDF)
   const model::MjcfActuator* actuator = nullptr;  ///< of an MJCF file, on this joint
   double noise = 0.0;                             ///< of its position, as an MJCF file states it; rad or m
   double small_inertia = 0.0;                     ///< of a rotor where the file states none, kg m^2 or kg
@@ -36,7 +38,9 @@ struct Plan {
   const validation::LogLook* look = nullptr;  ///< nullptr: no log
   std::vector<PlannedJoint> joints;
 
-  /// Nothing drives a joint without an actuator where the file has actuators, unless the log has its command.
+  /// The file or a command in the log says that a joint is driven. Where neither says it of this joint, it is
+  /// driven only if they say it of none: then nothing is known. A joint that the log does not show is no
+  /// sign.
   bool is_driven(const PlannedJoint& one) const;
   /// Has the log nothing of this joint, and something of others? Then the trials hold it still.
   bool is_held(const PlannedJoint& one) const;
@@ -47,6 +51,7 @@ std::vector<PlannedJoint> plan_joints(const model::Skeleton& skeleton);
 
 /// What the file says of the joints' drives and sensors; `drives` must live as long as `joints`.
 void add_drives(const model::MjcfDrives& drives, std::vector<PlannedJoint>& joints);
+void add_transmissions(const std::set<std::string>& driven, std::vector<PlannedJoint>& joints);
 
 /// Does the new model have what the skeleton's sentence says is left out of it: actuators, as motors?
 bool is_taken_by_new_model(const std::string& left_out);
