@@ -41,10 +41,11 @@ class Chain:
         for joint in root.findall("joint"):
             children.setdefault(joint.find("parent").get("link"), []).append(joint)
         moved = {joint.find("child").get("link") for joint in root.findall("joint")}
-        self._walk(next(name for name in links if name not in moved), links, children, np.eye(3), np.zeros(3))
+        root_link = next(name for name in [*links, *children] if name not in moved)  # a world may be named by joints alone
+        self._walk(root_link, links, children, np.eye(3), np.zeros(3))
 
     def _walk(self, link, links, children, turned, offset):
-        inertial = links[link].find("inertial")
+        inertial = links[link].find("inertial") if link in links else None
         if self.names and inertial is not None:
             frame, center = pose(inertial)
             i = {key: float(value) for key, value in inertial.find("inertia").attrib.items()}

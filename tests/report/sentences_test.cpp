@@ -39,6 +39,17 @@ TEST(Summary, NamesSeveralEffects) {
   EXPECT_THAT(text, HasSubstr("Missing: coulomb at drive, viscous at drive and lugre at drive."));
 }
 
+TEST(Remarks, SayThePlaceWhereTheLawIsOpen) {
+  Diagnosis diagnosis = found({}, Verdict::unexplained, 12.5, 9.0);
+  diagnosis.at_one_place =
+      OnePlace{"m_tail", 0.93, {{{"actuator_lag", "m_tail"}, 0.61}, {{"rotor_inertia", "tail"}, 0.32}}};
+  const std::string said = testing::PrintToString(remarks(diagnosis));
+  EXPECT_THAT(said, HasSubstr("Something is missing at m_tail: a law there is the best in 93 %"));
+  EXPECT_THAT(said, HasSubstr("actuator_lag 61 %, rotor_inertia at tail 32 %."));
+  diagnosis.verdict = Verdict::nothing_missing;
+  EXPECT_THAT(testing::PrintToString(remarks(diagnosis)), Not(HasSubstr("m_tail")));
+}
+
 TEST(Summary, NothingIsMissingSaysWhichNumbersMoved) {
   Diagnosis diagnosis = found({}, Verdict::nothing_missing, 78.0, 1.02);
   EXPECT_THAT(summary(diagnosis), HasSubstr("Nothing is missing: the model predicts"));

@@ -12,6 +12,7 @@
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/found_values.h"
 #include "validation/identify/diagnose/judged.h"
+#include "validation/identify/diagnose/one_place.h"
 #include "validation/report/result_json.h"
 
 namespace plumbline::api {
@@ -217,6 +218,9 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
     if (torques.stage) {
       answer.torque_cutoff = torques.stage->cutoff;
       answer.open = torques.stage->open;
+      if (!answer.diagnosis.at_one_place) {
+        answer.diagnosis.at_one_place = validation::at_one_place(answer.open, loaded.model, options);
+      }
     }
     if (!answer.diagnosis.interrupted && !answer.diagnosis.ladder.empty()) {
       find_best(loaded, torques, options, progress, answer);
@@ -297,7 +301,7 @@ nlohmann::json to_json(const Answer& answer) {
     json["best_model"]["at_limits"] = answer.best->fit.at_limits;
   }
   json["open"] = nlohmann::json::array();
-  for (const validation::TorqueShare& one : answer.open) {
+  for (const validation::LawShare& one : answer.open) {
     json["open"].push_back({{"effect", one.effect}, {"at", one.at}, {"share", one.share}});
   }
   return json;

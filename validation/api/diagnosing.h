@@ -34,7 +34,7 @@ struct Answer {
   std::vector<validation::UnexplainedForce> left;  ///< empty when little is left or the work was stopped
   std::optional<StandardRung> standard;            ///< empty: at the floor, or it cannot be done
   std::optional<BestModel> best;                   ///< empty: the final stage of the diagnosis
-  std::vector<validation::TorqueShare> open;       ///< what the torques ask for and cannot tell apart
+  std::vector<validation::LawShare> open;          ///< what the torques ask for and cannot tell apart
   double torque_cutoff = 0.0;  ///< Hz: below which torques were compared; 0: they were not
 };
 

@@ -55,7 +55,7 @@ Finding finding_of(const TorqueFinding& named, int rung) {
           {use.law->declaration().parameters[index].name, value.unit, value.value, value.deviation, false});
     }
   }
-  for (const validation::TorqueShare& rival : named.rivals) {
+  for (const validation::LawShare& rival : named.rivals) {
     finding.rivals.push_back({rival, 1.0, false});
   }
   return finding;

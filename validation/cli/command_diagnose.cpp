@@ -224,7 +224,7 @@ void print_torques(const api::Answer& answer) {
   }
   constexpr double kShown = 0.05;
   std::string names;
-  for (const validation::TorqueShare& one : answer.open) {
+  for (const validation::LawShare& one : answer.open) {
     if (one.share >= kShown) {
       names += fmt::format("{}{} at {} {:.0f} %", names.empty() ? "" : ", ", one.effect, one.at,
                            100.0 * one.share);

@@ -286,11 +286,26 @@ std::string exact_sentence(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string one_place_sentence(const OnePlace& place) {
+  std::string laws;
+  for (const LawShare& one : place.laws) {
+    const std::string where = one.at == place.at ? "" : " at " + one.at;
+    laws += fmt::format("{}{}{} {:.0f} %", laws.empty() ? "" : ", ", one.effect, where, 100.0 * one.share);
+  }
+  return fmt::format(
+      "Something is missing at {}: a law there is the best in {:.0f} % of the resamples. Which one these "
+      "data "
+      "cannot tell: {}.",
+      place.at, 100.0 * place.share, laws);
+}
+
 std::vector<std::string> remarks(const Diagnosis& diagnosis) {
   std::vector<std::string> said;
+  const bool is_open = diagnosis.verdict != Verdict::nothing_missing && diagnosis.at_one_place;
   for (const std::string& one :
-       {test_sentence(diagnosis), withdrawn_sentence(diagnosis), open_values_sentence(diagnosis),
-        part_sentence(diagnosis), exact_sentence(diagnosis)}) {
+       {is_open ? one_place_sentence(*diagnosis.at_one_place) : "", test_sentence(diagnosis),
+        withdrawn_sentence(diagnosis), open_values_sentence(diagnosis), part_sentence(diagnosis),
+        exact_sentence(diagnosis)}) {
     if (!one.empty()) {
       said.push_back(one);
     }

@@ -16,6 +16,10 @@ std::string verdict_sentence(const Diagnosis& diagnosis);
 /// The last error is the ladder's, on all windows, where the finding is the last.
 std::string finding_sentences(const Finding& finding, const Diagnosis& diagnosis);
 
+/// "Something is missing at m_tail: a law there is the best in 93 % of the resamples. Which one these data
+/// cannot tell: actuator_lag 61 %, rotor_inertia 32 %."
+std::string one_place_sentence(const OnePlace& place);
+
 /// What else is to be known of an answer, a few sentences each: what the train trials leave open of it, and
 /// on what part of the windows it was found. Needs a rung on the ladder.
 std::vector<std::string> remarks(const Diagnosis& diagnosis);

@@ -67,6 +67,18 @@ struct PairRow {
   std::string remark;  ///< why they were not accepted
 };
 
+/// A law and the share of the resamples in which it is the best.
+struct LawShare : Named {
+  double share = 0.0;
+};
+
+/// Something is missing at this place, and which law the data cannot tell (one_place.h).
+struct OnePlace {
+  std::string at;
+  double share = 0.0;          ///< of the resamples in which one of the laws is the best
+  std::vector<LawShare> laws;  ///< most probable first
+};
+
 struct Rung {
   std::string name;  ///< "as given", "own parameters fitted", "+ coulomb@drive"
   Stage stage;
@@ -95,9 +107,10 @@ std::string to_string(Verdict verdict);
 struct Diagnosis {
   Verdict verdict = Verdict::nothing_missing;
   std::vector<Finding> accepted;
-  std::vector<RankRow> ranking;  ///< of the first round in which something was looked for
-  std::vector<RankRow> leads;    ///< refitted but not accepted in the last round
-  std::vector<PairRow> pairs;    ///< best first; empty where one effect after the other led to an answer
+  std::vector<RankRow> ranking;          ///< of the first round in which something was looked for
+  std::vector<RankRow> leads;            ///< refitted but not accepted in the last round
+  std::optional<OnePlace> at_one_place;  ///< of the leads
+  std::vector<PairRow> pairs;  ///< best first; empty where one effect after the other led to an answer
   std::vector<Rung> ladder;
   double unexplained_share = 0.0;  ///< share of the squared error above the floor that is left
   int candidates = 0;              ///< hypotheses screened

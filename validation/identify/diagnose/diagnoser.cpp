@@ -13,6 +13,7 @@
 #include "validation/identify/diagnose/findings.h"
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/judged.h"
+#include "validation/identify/diagnose/one_place.h"
 #include "validation/identify/diagnose/own_parameters.h"
 #include "validation/identify/diagnose/promise.h"
 #include "validation/identify/diagnose/refit_one.h"
@@ -264,6 +265,8 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
       diagnosis.leads.push_back(row);
     }
   }
+  diagnosis.at_one_place =
+      is_named ? std::nullopt : at_one_place(diagnosis.leads, diagnosis.final_stage.model, policy_);
   if (diagnosis.ranking.empty()) {
     diagnosis.ranking = rows;
   }

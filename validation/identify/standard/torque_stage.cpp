@@ -118,7 +118,7 @@ class Judge {
 
 /// What a round says of its candidates, in the order of the screen.
 struct Round {
-  std::vector<TorqueShare> shares;
+  std::vector<LawShare> shares;
   std::vector<double> falls;  ///< of the torques' error, relative to the model without any of them
 };
 
@@ -132,7 +132,7 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
   const std::vector<double> shares = judge.shares(models, policy);
   Round round;
   for (std::size_t i = 0; i < count; ++i) {
-    TorqueShare one;
+    LawShare one;
     one.effect = screen.ranked[i].law;
     one.at = screen.ranked[i].at;
     one.share = shares[i + 1];
@@ -142,7 +142,7 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
   return round;
 }
 
-bool is_more_probable(const TorqueShare& a, const TorqueShare& b) { return a.share > b.share; }
+bool is_more_probable(const LawShare& a, const LawShare& b) { return a.share > b.share; }
 
 }  // namespace
 
@@ -176,7 +176,7 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     finding.free = screen.ranked[index].free;
     finding.share = best->share;
     std::copy_if(stage.open.begin() + 1, stage.open.end(), std::back_inserter(finding.rivals),
-                 [&](const TorqueShare& one) { return one.share >= policy.fair; });
+                 [&](const LawShare& one) { return one.share >= policy.fair; });
     own = finding.free;
     stage.named.push_back(std::move(finding));
     stage.open.clear();

@@ -10,22 +10,17 @@
 
 namespace plumbline::validation {
 
-/// An effect of a round, and in which share of the resamples it was the best.
-struct TorqueShare : Named {
-  double share = 0.0;
-};
-
 struct TorqueFinding : Named {
   FreeModel free;  ///< the model with it; it is the last effect
   double share = 0.0;
-  std::vector<TorqueShare> rivals;  ///< with at least Policy::fair of the resamples
+  std::vector<LawShare> rivals;  ///< with at least Policy::fair of the resamples
 };
 
 struct TorqueStage {
   FreeModel own;  ///< the model's own numbers alone
   std::vector<TorqueFinding> named;
-  std::vector<TorqueShare> open;  ///< of the round after the last finding, most probable first
-  double cutoff = 0.0;            ///< Hz
+  std::vector<LawShare> open;  ///< of the round after the last finding, most probable first
+  double cutoff = 0.0;         ///< Hz
 };
 
 /// Rounds of torque_screen(). Of its best candidates, each fitted to the train trials, the one is named that
