@@ -17,7 +17,9 @@ void MjcfDefaults::add(const XMLElement& element, const std::string& parent) {
   if (parent.empty()) {
     main_ = name;
   }
-  classes_[name] = {&element, parent};
+  Class& known = classes_[name];
+  known.elements.push_back(&element);
+  known.parent = parent;
   for (const XMLElement* child = element.FirstChildElement("default"); child != nullptr;
        child = child->NextSiblingElement("default")) {
     add(*child, name);
@@ -36,9 +38,12 @@ const char* MjcfDefaults::attribute(const XMLElement& element, const char* name,
     if (known == classes_.end()) {
       return nullptr;
     }
-    const XMLElement* here = known->second.element->FirstChildElement(element.Name());
-    if (here != nullptr && here->Attribute(name) != nullptr) {
-      return here->Attribute(name);
+    const std::vector<const XMLElement*>& places = known->second.elements;
+    for (auto place = places.rbegin(); place != places.rend(); ++place) {
+      const XMLElement* here = (*place)->FirstChildElement(element.Name());
+      if (here != nullptr && here->Attribute(name) != nullptr) {
+        return here->Attribute(name);
+      }
     }
     at = known->second.parent;
   }

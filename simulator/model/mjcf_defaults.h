@@ -23,7 +23,8 @@ class MjcfDefaults {
 
  private:
   struct Class {
-    const tinyxml2::XMLElement* element = nullptr;
+    std::vector<const tinyxml2::XMLElement*>
+        elements;        ///< a class may stand in several places; the last counts
     std::string parent;  ///< empty: none
   };
   void add(const tinyxml2::XMLElement& element, const std::string& parent);

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "simulator/model/mjcf_values.h"
-#include "simulator/trace/file_text.h"
 
 namespace plumbline::model {
 namespace {
@@ -14,20 +13,10 @@ using tinyxml2::XMLElement;
 
 class DrivesReader : private MjcfValues {
  public:
-  explicit DrivesReader(const std::string& path) : MjcfValues(path) {
-    const std::string text = read_text(path);
-    document_.Parse(text.data(), text.size());
-    root_ = document_.RootElement();
-  }
+  explicit DrivesReader(const MjcfDocument& document) : MjcfValues(document) {}
 
   MjcfDrives read() {
-    if (root_ == nullptr) {
-      return {};
-    }
-    defaults_ = MjcfDefaults(*root_);
-    if (const XMLElement* world = root_->FirstChildElement("worldbody")) {
-      collect_joints(*world);
-    }
+    each("worldbody", [&](const XMLElement& one) { collect_joint(one); });
     each("actuator", [&](const XMLElement& one) { read_actuator(one); });
     each("sensor", [&](const XMLElement& one) { read_sensor(one); });
     return std::move(drives_);
@@ -36,8 +25,7 @@ class DrivesReader : private MjcfValues {
  private:
   template <typename Work>
   void each(const char* name, const Work& work) const {
-    for (const XMLElement* section = root_->FirstChildElement(name); section != nullptr;
-         section = section->NextSiblingElement(name)) {
+    for (const XMLElement* section : sections(name)) {
       for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
            one = one->NextSiblingElement()) {
         work(*one);
@@ -45,13 +33,13 @@ class DrivesReader : private MjcfValues {
     }
   }
 
-  void collect_joints(const XMLElement& element) {
+  void collect_joint(const XMLElement& element) {
+    if (std::string(element.Name()) == "joint" && element.Attribute("name") != nullptr) {
+      joints_.insert(element.Attribute("name"));
+    }
     for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
-      if (std::string(child->Name()) == "joint" && child->Attribute("name") != nullptr) {
-        joints_.insert(child->Attribute("name"));
-      }
-      collect_joints(*child);
+      collect_joint(*child);
     }
   }
 
@@ -125,14 +113,15 @@ class DrivesReader : private MjcfValues {
     }
   }
 
-  tinyxml2::XMLDocument document_;
-  const XMLElement* root_ = nullptr;
   std::set<std::string> joints_;
   MjcfDrives drives_;
 };
 
 }  // namespace
 
-MjcfDrives read_mjcf_drives(const std::string& path) { return DrivesReader(path).read(); }
+MjcfDrives read_mjcf_drives(const std::string& path) {
+  const MjcfDocument document(path);
+  return DrivesReader(document).read();
+}
 
 }  // namespace plumbline::model

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "simulator/model/mjcf_document.h"
 #include "simulator/model/skeleton_export.h"
 #include "simulator/model/xml_text.h"
 #include "simulator/trace/error.h"
-#include "simulator/trace/file_text.h"
 
 namespace plumbline::model {
 namespace {
@@ -25,12 +25,15 @@ std::string inertial_element(const Body& body) {
 /// of the skeleton as it has joints, at least one, of which the last is its own.
 class MjcfEditor {
  public:
+  /// What the file includes is written into it.
   explicit MjcfEditor(const SkeletonEdit& edit)
-      : edit_(edit), xml_(edit.before.file, read_text(edit.before.file)) {}
+      : edit_(edit), xml_(edit.before.file, MjcfDocument(edit.before.file).text()) {}
 
   std::string edited() {
-    for (const XmlNode* body : xml_.root().child("worldbody")->all("body")) {
-      put_body(*body);
+    for (const XmlNode* world : xml_.root().all("worldbody")) {
+      for (const XmlNode* body : world->all("body")) {
+        put_body(*body);
+      }
     }
     if (edit_.gravity) {
       put_gravity();

@@ -1,6 +1,5 @@
 #include "simulator/model/mjcf_file.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +8,8 @@
 #include <set>
 
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/mjcf_inertia.h"
 #include "simulator/model/mjcf_loops.h"
-#include "simulator/model/mjcf_shapes.h"
 #include "simulator/model/mjcf_values.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
@@ -23,84 +22,37 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-constexpr double kNothing = 1e-12;
-
 class MjcfReader : private MjcfValues {
  public:
-  explicit MjcfReader(const std::string& path) : MjcfValues(path) {
-    const std::string text = read_text(path);
-    if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-      throw InputError({file_, document_.ErrorLineNum(), ""},
-                       std::string("text that is no XML (") + document_.ErrorName() + ")",
-                       "a whole MJCF file");
-    }
-    const XMLElement* root = document_.RootElement();
-    if (root == nullptr || std::string(root->Name()) != "mujoco") {
-      throw InputError({file_, 1, ""}, "no root element <mujoco>", "an MJCF file");
-    }
-    root_ = root;
-  }
+  explicit MjcfReader(const MjcfDocument& document)
+      : MjcfValues(document), root_(&document.root()), inertia_(document) {}
 
   Skeleton read() {
-    read_settings();
-    defaults_ = MjcfDefaults(*root_);
-    skeleton_.file = file_;
+    skeleton_.file = source_.file();
     skeleton_.gravity = Vector3d(0.0, 0.0, -9.81);
-    if (const XMLElement* option = root_->FirstChildElement("option")) {
+    for (const XMLElement* option : sections("option")) {
       if (option->Attribute("gravity") != nullptr) {
         skeleton_.gravity = vector(*option, option->Attribute("gravity"), "gravity");
       }
     }
-    const XMLElement* world = root_->FirstChildElement("worldbody");
-    if (world == nullptr) {
+    const std::vector<const XMLElement*> worlds = sections("worldbody");
+    if (worlds.empty()) {
       refuse(*root_, "no <worldbody>", "one that holds the bodies");
     }
-    for (const XMLElement* body = world->FirstChildElement("body"); body != nullptr;
-         body = body->NextSiblingElement("body")) {
-      read_body(*body, -1, "");
+    for (const XMLElement* world : worlds) {
+      read_children(*world, -1, "");
     }
     if (skeleton_.bodies.empty()) {
-      refuse(*world, "no <body>", "at least one");
+      refuse(*worlds.front(), "no <body>", "at least one");
     }
     refuse_massless();
     check_joint_names(skeleton_);
-    read_mjcf_loops(file_, *root_, skeleton_);
+    read_mjcf_loops(source_, skeleton_);
     name_what_is_left_out();
     return std::move(skeleton_);
   }
 
  private:
-  void refuse_includes(const XMLElement& element) const {
-    for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
-         child = child->NextSiblingElement()) {
-      if (std::string(child->Name()) == "include") {
-        refuse(*child, "an included file", "everything in one file (MuJoCo's compile writes one)");
-      }
-      refuse_includes(*child);
-    }
-  }
-
-  void read_settings() {
-    refuse_includes(*root_);
-    for (const XMLElement* compiler = root_->FirstChildElement("compiler"); compiler != nullptr;
-         compiler = compiler->NextSiblingElement("compiler")) {
-      if (const char* angle = compiler->Attribute("angle")) {
-        angle_ = std::string(angle) == "radian" ? 1.0 : kDegree;
-      }
-      if (const char* order = compiler->Attribute("eulerseq")) {
-        euler_ = order;
-      }
-      if (const char* from = compiler->Attribute("inertiafromgeom")) {
-        from_geoms_ = from;
-      }
-      if (const char* coordinate = compiler->Attribute("coordinate")) {
-        if (std::string(coordinate) != "local") {
-          refuse(*compiler, "global coordinates", "local ones");
-        }
-      }
-    }
-  }
-
   std::string fresh_name(const XMLElement& element, const std::string& fallback) {
     const char* given = element.Attribute("name");
     std::set<std::string>& taken = names_[element.Name()];  // a joint may be called as its body is
@@ -123,14 +75,23 @@ class MjcfReader : private MjcfValues {
     }
     Body body;
     body.name = fresh_name(element, "body_" + std::to_string(skeleton_.bodies.size() + 1));
-    read_inertia(element, childclass, body);
+    inertia_.read(element, childclass, body);
     const Eigen::Isometry3d X_PB = pose(element, childclass);
     append_joints(element, childclass, body, X_PB, parent);
     note_spheres(element, childclass, body.name);
-    const int self = static_cast<int>(skeleton_.bodies.size()) - 1;
-    for (const XMLElement* child = element.FirstChildElement("body"); child != nullptr;
-         child = child->NextSiblingElement("body")) {
-      read_body(*child, self, childclass);
+    read_children(element, static_cast<int>(skeleton_.bodies.size()) - 1, childclass);
+  }
+
+  void read_children(const XMLElement& element, int parent, const std::string& childclass) {
+    for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const std::string kind = child->Name();
+      if (kind == "body") {
+        read_body(*child, parent, childclass);
+      } else if (kind == "frame" || kind == "replicate" || kind == "attach" || kind == "composite" ||
+                 kind == "flexcomp") {
+        refuse(*child, "<" + kind + ">, which makes bodies", "bodies alone (MuJoCo's compile writes them)");
+      }
     }
   }
 
@@ -274,73 +235,6 @@ class MjcfReader : private MjcfValues {
     return joint;
   }
 
-  void read_inertia(const XMLElement& element, const std::string& childclass, Body& body) {
-    const XMLElement* inertial = element.FirstChildElement("inertial");
-    const bool use_inertial = inertial != nullptr && from_geoms_ != "true";
-    if (use_inertial) {
-      read_inertial(*inertial, body);
-    } else if (from_geoms_ != "false") {
-      add_geoms(element, childclass, body);
-    }
-  }
-
-  void read_inertial(const XMLElement& inertial, Body& body) const {
-    const Eigen::Isometry3d X = pose(inertial, "");
-    body.mass = number(inertial, "mass", "", 0.0);
-    body.com = X.translation();
-    Matrix3d I = Matrix3d::Zero();
-    if (const char* full = inertial.Attribute("fullinertia")) {
-      const std::vector<double> v = numbers(inertial, full, "fullinertia");
-      if (v.size() != 6) {
-        refuse(inertial, "fullinertia=\"" + std::string(full) + "\"", "six numbers: xx yy zz xy xz yz");
-      }
-      I << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
-    } else if (const char* diagonal = inertial.Attribute("diaginertia")) {
-      I = vector(inertial, diagonal, "diaginertia").asDiagonal();
-    }
-    body.inertia = X.linear() * I * X.linear().transpose();
-    if (body.mass < 0.0) {
-      refuse(inertial, "a mass of " + number_text(body.mass) + " kg", "zero or more");
-    }
-    if (body.mass > 0.0) {
-      const Vector3d principal =
-          Eigen::SelfAdjointEigenSolver<Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
-      if (!(principal[0] >= 0.0) || principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6) + kNothing) {
-        refuse(inertial,
-               "principal moments " + number_text(principal[0], 6) + ", " + number_text(principal[1], 6) +
-                   ", " + number_text(principal[2], 6) + " kg m^2",
-               "moments above zero, none larger than the sum of the other two");
-      }
-    }
-  }
-
-  void add_geoms(const XMLElement& element, const std::string& childclass, Body& body) {
-    std::vector<RigidPart> parts;
-    for (const XMLElement* geom = element.FirstChildElement("geom"); geom != nullptr;
-         geom = geom->NextSiblingElement("geom")) {
-      const char* type = defaults_.attribute(*geom, "type", childclass);
-      const std::string kind = type == nullptr ? "sphere" : type;
-      const char* mass = defaults_.attribute(*geom, "mass", childclass);
-      if ((mass != nullptr && number(*geom, "mass", childclass, 0.0) == 0.0) ||
-          number(*geom, "density", childclass, 1000.0) == 0.0) {
-        continue;
-      }
-      if (kind == "mesh" || kind == "hfield" || kind == "plane") {
-        if (kind == "mesh") {
-          refuse(
-              *geom, "a mesh that has to give the inertia of body " + body.name,
-              "<inertial> in the body (MuJoCo's compile writes it), or mass=\"0\" for a shape without mass");
-        }
-        continue;
-      }
-      parts.push_back(read_geom(*geom, kind, childclass));
-    }
-    const RigidPart whole = together(parts);
-    body.mass = whole.mass;
-    body.com = whole.com;
-    body.inertia = whole.inertia;
-  }
-
   /// Spheres that may touch the ground (contype and conaffinity are not both 0).
   void note_spheres(const XMLElement& element, const std::string& childclass, const std::string& body) {
     for (const XMLElement* geom = element.FirstChildElement("geom"); geom != nullptr;
@@ -390,22 +284,6 @@ class MjcfReader : private MjcfValues {
     }
   }
 
-  RigidPart read_geom(const XMLElement& geom, const std::string& kind, const std::string& childclass) const {
-    auto [X, size] = shape_of(geom, childclass);
-    if (defaults_.attribute(geom, "fromto", childclass) != nullptr &&
-        (kind == "box" || kind == "ellipsoid")) {
-      size = {size[0], size[0], size[1]};
-    }
-    const std::optional<RigidPart> unit = solid(kind, size);
-    if (!unit) {
-      refuse(geom, "a geom of type " + kind + " with " + std::to_string(size.size()) + " sizes",
-             "sphere, capsule, cylinder, box or ellipsoid with sizes above zero");
-    }
-    const double density = number(geom, "density", childclass, 1000.0);
-    const double mass = number(geom, "mass", childclass, density * unit->mass);
-    return placed(*unit, mass, X);
-  }
-
   /// A joint that moves must move mass.
   void refuse_massless() const {
     std::vector<double> carried(skeleton_.bodies.size());
@@ -416,7 +294,7 @@ class MjcfReader : private MjcfValues {
         carried[static_cast<std::size_t>(joint.parent)] += carried[i];
       }
       if (joint.type != JointType::fixed && !(carried[i] > 0.0)) {
-        throw InputError({file_, 0, skeleton_.bodies[i].name}, "no mass of a body that moves",
+        throw InputError({source_.file(), 0, skeleton_.bodies[i].name}, "no mass of a body that moves",
                          "<inertial>, or geoms with a density");
       }
     }
@@ -433,11 +311,12 @@ class MjcfReader : private MjcfValues {
                                      {"sensor", "state them as `sensors` of the model file"},
                                      {"keyframe", ""}}};
     for (const Part& part : parts) {
-      const XMLElement* section = root_->FirstChildElement(part.name);
       int count = 0;
-      for (const XMLElement* one = section == nullptr ? nullptr : section->FirstChildElement();
-           one != nullptr; one = one->NextSiblingElement()) {
-        count += is_mjcf_loop(*one) ? 0 : 1;
+      for (const XMLElement* section : sections(part.name)) {
+        for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
+             one = one->NextSiblingElement()) {
+          count += is_mjcf_loop(*one) ? 0 : 1;
+        }
       }
       if (count > 0) {
         skeleton_.left_out.push_back("<" + std::string(part.name) + "> with " + std::to_string(count) +
@@ -456,9 +335,8 @@ class MjcfReader : private MjcfValues {
     }
   }
 
-  tinyxml2::XMLDocument document_;
-  const XMLElement* root_ = nullptr;
-  std::string from_geoms_ = "auto";
+  const XMLElement* root_;
+  MjcfInertia inertia_;
   std::map<std::string, std::set<std::string>> names_;  // by kind of element
   int limits_ = 0;
   int shapes_ = 0;  // geoms that may touch something and are no spheres
@@ -467,7 +345,10 @@ class MjcfReader : private MjcfValues {
 
 }  // namespace
 
-Skeleton read_mjcf(const std::string& path) { return MjcfReader(path).read(); }
+Skeleton read_mjcf(const std::string& path) {
+  const MjcfDocument document(path);
+  return MjcfReader(document).read();
+}
 
 bool is_mjcf(const std::string& path) {
   tinyxml2::XMLDocument document;

@@ -16,9 +16,7 @@ using tinyxml2::XMLElement;
 
 class MjcfLoops : private MjcfValues {
  public:
-  MjcfLoops(const std::string& file, const XMLElement& root, Skeleton& skeleton)
-      : MjcfValues(file), skeleton_(skeleton) {
-    defaults_ = MjcfDefaults(root);
+  MjcfLoops(const MjcfDocument& document, Skeleton& skeleton) : MjcfValues(document), skeleton_(skeleton) {
     std::vector<double> file_pose;
     for (const Joint& joint : skeleton.joints) {
       if (joint.type != JointType::fixed) {
@@ -39,8 +37,9 @@ class MjcfLoops : private MjcfValues {
     loop.name = name != nullptr
                     ? name
                     : std::string(element.Name()) + "_" + std::to_string(skeleton_.loops.size() + 1);
-    loop.file = file_;
-    loop.line = element.GetLineNum();
+    const Place_in_file place = source_.place(element);
+    loop.file = place.file;
+    loop.line = place.line;
     const int first = body_of(element, "body1", true);
     const int second = body_of(element, "body2", false);
     refuse_if_it_floats(element, first, second);
@@ -141,9 +140,9 @@ bool is_mjcf_loop(const XMLElement& element) {
   return kind == "connect" || kind == "weld";
 }
 
-void read_mjcf_loops(const std::string& file, const XMLElement& root, Skeleton& skeleton) {
-  MjcfLoops loops(file, root, skeleton);
-  for (const XMLElement* section = root.FirstChildElement("equality"); section != nullptr;
+void read_mjcf_loops(const MjcfDocument& document, Skeleton& skeleton) {
+  MjcfLoops loops(document, skeleton);
+  for (const XMLElement* section = document.root().FirstChildElement("equality"); section != nullptr;
        section = section->NextSiblingElement("equality")) {
     for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
          one = one->NextSiblingElement()) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "simulator/model/mjcf_document.h"
 #include "simulator/model/model.h"
 
 namespace plumbline::model {
@@ -16,6 +17,6 @@ bool is_mjcf_loop(const tinyxml2::XMLElement& element);
 /// weld without relpose, are where the file's pose has them. Elements with active="false" are passed over.
 /// Throws InputError (file, line, element) for an unknown body, sites in place of bodies, and ends on two
 /// robots of which one floats: the pose of a free body is no part of the file's zero.
-void read_mjcf_loops(const std::string& file, const tinyxml2::XMLElement& root, Skeleton& skeleton);
+void read_mjcf_loops(const MjcfDocument& document, Skeleton& skeleton);
 
 }  // namespace plumbline::model

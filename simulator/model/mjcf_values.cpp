@@ -13,10 +13,33 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
+MjcfValues::MjcfValues(const MjcfDocument& document) : source_(document), defaults_(document.root()) {
+  for (const XMLElement* compiler : sections("compiler")) {
+    if (const char* angle = compiler->Attribute("angle")) {
+      angle_ = std::string(angle) == "radian" ? 1.0 : kDegree;
+    }
+    if (const char* order = compiler->Attribute("eulerseq")) {
+      euler_ = order;
+    }
+    const char* coordinate = compiler->Attribute("coordinate");
+    if (coordinate != nullptr && std::string(coordinate) != "local") {
+      refuse(*compiler, "global coordinates", "local ones");
+    }
+  }
+}
+
+std::vector<const XMLElement*> MjcfValues::sections(const char* name) const {
+  std::vector<const XMLElement*> found;
+  for (const XMLElement* one = source_.root().FirstChildElement(name); one != nullptr;
+       one = one->NextSiblingElement(name)) {
+    found.push_back(one);
+  }
+  return found;
+}
+
 void MjcfValues::refuse(const XMLElement& element, const std::string& found,
                         const std::string& expected) const {
-  const char* name = element.Attribute("name");
-  throw InputError({file_, element.GetLineNum(), name != nullptr ? name : element.Name()}, found, expected);
+  throw InputError(source_.place(element), found, expected);
 }
 
 std::vector<double> MjcfValues::numbers(const XMLElement& element, const char* text,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/model/mjcf_defaults.h"
+#include "simulator/model/mjcf_document.h"
 
 namespace plumbline::model {
 
@@ -21,10 +22,13 @@ class MjcfValues {
   using XMLElement = tinyxml2::XMLElement;
   static constexpr double kDegree = 0.017453292519943295;
 
-  explicit MjcfValues(std::string file) : file_(std::move(file)) {}
+  /// Of a document that lives as long; with what its <compiler> says of angles. Refuses global coordinates.
+  explicit MjcfValues(const MjcfDocument& document);
 
   [[noreturn]] void refuse(const XMLElement& element, const std::string& found,
                            const std::string& expected) const;
+  /// All top-level elements of a name: included files may bring one each.
+  std::vector<const XMLElement*> sections(const char* name) const;
   std::vector<double> numbers(const XMLElement& element, const char* text, const std::string& name) const;
   Vector3d vector(const XMLElement& element, const char* text, const std::string& name) const;
   double number(const XMLElement& element, const char* name, const std::string& childclass,
@@ -43,7 +47,7 @@ class MjcfValues {
   Shape shape_of(const XMLElement& geom, const std::string& childclass) const;
   double not_negative(const XMLElement& element, const char* name, const std::string& childclass) const;
 
-  std::string file_;
+  const MjcfDocument& source_;
   MjcfDefaults defaults_;
   double angle_ = kDegree;  // rad for each unit of the file's angles
   std::string euler_ = "xyz";

@@ -1,10 +1,13 @@
 // SDFormat and URDF to a Skeleton, through libsdformat.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "simulator/model/joint_chain.h"
 #include "simulator/model/mjcf_file.h"
+#include "simulator/model/rigid_part.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/sdformat_access.h"
+#include "simulator/trace/number_text.h"
 
 namespace plumbline::model {
 namespace {
@@ -22,6 +25,16 @@ struct LooseJoint {
   Eigen::Vector3d second = Eigen::Vector3d::UnitZ();  ///< the other axis of a universal joint
   Eigen::Isometry3d X_MJ = Eigen::Isometry3d::Identity();
 };
+
+/// A principal moment below zero by more than rounding, in words; else empty.
+std::string no_body(const Eigen::Matrix3d& inertia) {
+  constexpr double kRounding = 1e-6;  // of the largest: files round their numbers
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  return principal[0] < -kRounding * principal[2]
+             ? "a principal moment of " + number_text(principal[0], 6) + " kg m^2"
+             : "";
+}
 
 /// Puts links and joints into tree order and hangs the tree on the world.
 class TreeBuilder {
@@ -41,6 +54,7 @@ class TreeBuilder {
     refuse_loose_links();
     close_loops(skeleton);
     refuse_moving_massless(skeleton);
+    judge_unusual(skeleton);
   }
 
  private:
@@ -225,6 +239,45 @@ class TreeBuilder {
     }
   }
 
+  /// Where an unusual link moves, it and what is fixed to it must be a body: its moments not below zero. One
+  /// that is larger than the sum of the other two does no harm to the motion, and is said.
+  void judge_unusual(Skeleton& skeleton) const {
+    std::vector<std::size_t> holder(
+        skeleton.bodies.size());  // of all that is fixed to it; -1 as index: none moves
+    std::vector<bool> moves(skeleton.bodies.size(), true);
+    std::vector<Eigen::Isometry3d> on_holder(skeleton.bodies.size(), Eigen::Isometry3d::Identity());
+    std::vector<std::vector<RigidPart>> parts(skeleton.bodies.size());
+    for (std::size_t i = 0; i < skeleton.bodies.size(); ++i) {
+      const Joint& joint = skeleton.joints[i];
+      const Body& body = skeleton.bodies[i];
+      holder[i] = i;
+      if (joint.type == JointType::fixed) {
+        moves[i] = joint.parent >= 0 && moves[static_cast<std::size_t>(joint.parent)];
+        if (moves[i]) {
+          const auto parent = static_cast<std::size_t>(joint.parent);
+          holder[i] = holder[parent];
+          on_holder[i] = on_holder[parent] * joint.X_PJ * joint.X_CJ.inverse();
+        }
+      }
+      if (body.mass > 0.0) {
+        parts[holder[i]].push_back(placed({body.mass, body.com, body.inertia}, body.mass, on_holder[i]));
+      }
+    }
+    for (std::size_t i = 0; i < skeleton.bodies.size(); ++i) {
+      const std::string& name = skeleton.bodies[i].name;
+      if (xml_.unusual(name) == nullptr || !moves[i]) {
+        continue;
+      }
+      const std::string reason = no_body(together(parts[holder[i]]).inertia);
+      if (!reason.empty()) {
+        xml_.refuse({name + " inertia", xml_.line_of_link(name)}, reason + " of it and what is fixed to it",
+                    "moments that are not below zero");
+      }
+      skeleton.left_out.push_back("The inertia of link " + name +
+                                  ", which no body has, is taken as the file states it.");
+    }
+  }
+
   const SkeletonXml& xml_;
   std::vector<LooseLink> links_;
   std::vector<LooseJoint> joints_;
@@ -240,7 +293,11 @@ LooseLink read_link(const sdf::Link& link, const SkeletonXml& xml) {
   ignition::math::Pose3d pose;
   refuse_errors(link.SemanticPose().Resolve(pose, "__model__"), xml);
   loose.X_ML = to_eigen(pose);
-  if (xml.has_inertial(link.Name())) {
+  if (const RigidPart* stated = xml.unusual(link.Name())) {
+    loose.body.mass = stated->mass;
+    loose.body.com = stated->com;
+    loose.body.inertia = stated->inertia;
+  } else if (xml.has_inertial(link.Name())) {
     const ignition::math::Inertiald& inertial = link.Inertial();
     loose.body.mass = inertial.MassMatrix().Mass();
     loose.body.com = to_eigen(inertial.Pose().Pos());

@@ -225,7 +225,37 @@ std::string SkeletonXml::text() const {
   return printer.CStr();
 }
 
-void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link) const {
+Eigen::Vector3d SkeletonXml::triple(const XMLElement& element, const char* name, const XmlPart& link) const {
+  const std::string text = attribute(element, name);
+  std::istringstream words(text.empty() ? "0 0 0" : text);
+  Eigen::Vector3d numbers;
+  words >> numbers.x() >> numbers.y() >> numbers.z();
+  if (!words || !numbers.allFinite()) {
+    refuse({link.name + " " + name, element.GetLineNum()}, "\"" + text + "\"", "three numbers");
+  }
+  return numbers;
+}
+
+RigidPart SkeletonXml::urdf_part(const XMLElement& inertial, const Eigen::Matrix3d& inertia, double mass,
+                                 const XmlPart& link) const {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  if (const XMLElement* origin = inertial.FirstChildElement("origin")) {
+    const Eigen::Vector3d rpy = triple(*origin, "rpy", link);
+    X.translation() = triple(*origin, "xyz", link);
+    X.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+                  Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+                     .toRotationMatrix();
+  }
+  return placed({mass, Eigen::Vector3d::Zero(), inertia}, mass, X);
+}
+
+const RigidPart* SkeletonXml::unusual(const std::string& link) const {
+  const auto found = unusual_.find(link);
+  return found == unusual_.end() ? nullptr : &found->second;
+}
+
+void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link) {
   const double mass = number(inertial, "mass", link);
   if (!(mass > 0.0)) {
     const int line = inertial.FirstChildElement("mass")->GetLineNum();
@@ -244,7 +274,9 @@ void SkeletonXml::check_inertial(const XMLElement& inertial, const XmlPart& link
   I(0, 2) = I(2, 0) = number(*inertia, "ixz", link);
   I(1, 2) = I(2, 1) = number(*inertia, "iyz", link);
   const std::string reason = impossible(I);
-  if (!reason.empty()) {
+  if (!reason.empty() && urdf_) {
+    unusual_[link.name] = urdf_part(inertial, I, mass, link);
+  } else if (!reason.empty()) {
     refuse({link.name + " inertia", inertia->GetLineNum()}, reason,
            "moments above zero, none larger than the sum of the other two");
   }
@@ -372,7 +404,8 @@ std::string SkeletonXml::urdf_for_sdformat(UrdfShapes shapes) {
       remove_children(*link, "visual");
     }
     remove_children(*link, "collision");
-    if (!has_inertial(attribute(*link, "name"))) {
+    const std::string name = attribute(*link, "name");
+    if (!has_inertial(name) || unusual(name) != nullptr) {
       remove_children(*link, "inertial");
     }
     if (link->FirstChildElement("inertial") == nullptr && attribute(*link, "name") != "world") {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "simulator/model/mjcf_file.h"
-#include "simulator/model/mjcf_shapes.h"
 #include "simulator/model/plant.h"
+#include "simulator/model/rigid_part.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/trace/error.h"
 #include "tests/trace/refusal.h"
@@ -206,9 +206,9 @@ TEST_F(Mjcf, BadFilesAreRefusedInOneLine) {
   EXPECT_THAT(refusal(R"(childclass="knee")", R"(childclass="ankle")"), HasSubstr("childclass \"ankle\""));
   EXPECT_THAT(refusal(R"(damping="5")", R"(damping="-5")"), HasSubstr("damping -5"));
   EXPECT_THAT(refusal(R"(name="hip")", R"(name="rail")"), HasSubstr("this name twice"));
-  EXPECT_THAT(refusal(R"(type="capsule")", R"(type="mesh" mesh="a")"), HasSubstr("a mesh that has to give"));
+  EXPECT_THAT(refusal(R"(type="capsule")", R"(type="mesh" mesh="a")"), HasSubstr("mesh \"a\""));
   EXPECT_THAT(refusal("<worldbody>", "<worldbody><include file='a.xml'/>"),
-              HasSubstr("leg.xml:9: include: found an included file"));
+              HasSubstr("leg.xml:9: include: found no file \"a.xml\""));
   EXPECT_THAT(refusal("</mujoco>", ""), HasSubstr("no XML"));
   EXPECT_THAT(refusal(R"(0.1 0 -0.4" size="0.03")", R"(0.1 0 -0.4" size="0")"),
               HasSubstr("a geom of type capsule with 2 sizes"));

@@ -161,6 +161,35 @@ TEST_F(SkeletonTest, AUrdfRootNamedWorldIsTheWorld) {
   expect_arm(skeleton, 0, 1);
 }
 
+// A URDF's frame or sensor whose inertia no body has: it is taken as it is where what it is fixed to makes a
+// body of both, and said; what moves alone with a moment below zero is refused.
+TEST_F(SkeletonTest, AUrdfsImpossibleInertiaIsJudgedWithWhatItIsFixedTo) {
+  const auto with = [](const std::string& inertia, bool fixed) {
+    std::string text = test::kUrdf;
+    const std::string load = "<mass value=\"3\"/><inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.25\"";
+    text.replace(text.find(load), load.size(),
+                 "<origin rpy=\"0 0 1\"/><mass value=\"3\"/><inertia " + inertia);
+    if (!fixed) {
+      text.replace(text.find("type=\"fixed\""), 12, "type=\"continuous\"");
+    }
+    return text;
+  };
+  const Skeleton arm = read("arm.urdf", with("ixx=\"-0.01\" iyy=\"0.2\" izz=\"0.9\"", true));
+  const auto load = std::find_if(arm.bodies.begin(), arm.bodies.end(),
+                                 [](const Body& body) { return body.name == "load"; });
+  ASSERT_NE(load, arm.bodies.end());
+  EXPECT_NEAR(load->inertia(2, 2), 0.9, 1e-15);
+  EXPECT_NEAR(load->inertia.trace(), 1.09, 1e-12);
+  EXPECT_NEAR(load->inertia(0, 0), -0.01 * std::pow(std::cos(1.0), 2) + 0.2 * std::pow(std::sin(1.0), 2),
+              1e-12);
+  EXPECT_THAT(arm.left_out, testing::Contains(HasSubstr("The inertia of link load, which no body has")));
+  EXPECT_THAT(read("arm.urdf", with("ixx=\"0.1\" iyy=\"0.2\" izz=\"0.9\"", false)).left_out,
+              testing::Contains(HasSubstr("link load")));
+  EXPECT_THAT(test::refusal([&] { read("arm.urdf", with("ixx=\"-0.01\" iyy=\"0.2\" izz=\"0.25\"", false)); }),
+              HasSubstr("arm.urdf:11: load inertia: found a principal moment of -0.01 kg m^2 of it and what "
+                        "is fixed to it"));
+}
+
 struct Bad {
   std::string text, from, to;
   int line;

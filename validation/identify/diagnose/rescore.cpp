@@ -1,5 +1,7 @@
 #include "validation/identify/diagnose/rescore.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -129,6 +131,7 @@ void rescore(const Data& all, const Data& some, const Policy& policy, const Prog
       }
     }
     rung.stage.estimate = std::move(found);
+    progress(fmt::format("on all windows {}: {:.2f} floors", rung.name, judged(rung.stage.estimate, all)), 0.9);
     before = &rung;
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;

@@ -1,4 +1,4 @@
-#include "simulator/model/mjcf_shapes.h"
+#include "simulator/model/rigid_part.h"
 
 #include <algorithm>
 

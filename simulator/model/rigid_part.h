@@ -1,4 +1,4 @@
-// Mass properties of MJCF's geoms.
+// Mass properties of rigid parts: the solids that files describe, and parts put together.
 #pragma once
 
 #include <Eigen/Geometry>
