@@ -2,6 +2,8 @@
 
 #include <Simbody.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -27,9 +29,19 @@ SimTK::Transform to_simtk(const Eigen::Isometry3d& X) {
   return {SimTK::Rotation(R), to_simtk(Eigen::Vector3d(X.translation()))};
 }
 
+/// Simbody takes none that no body has (a URDF may state one): then the same with all three principal moments
+/// larger by as much as they lack.
+Eigen::Matrix3d possible(const Eigen::Matrix3d& inertia) {
+  const Eigen::Vector3d p =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const double lacking = std::max(-p[0], p[2] - p[0] - p[1]);
+  const double rounding = SimTK::SignificantReal * std::max(1.0, p.sum());  // Simbody's own
+  return lacking <= rounding ? inertia : inertia + lacking * Eigen::Matrix3d::Identity();
+}
+
 /// Simbody takes the inertia about the body origin.
 SimTK::MassProperties mass_properties(const Body& body) {
-  const Eigen::Matrix3d& I = body.inertia;
+  const Eigen::Matrix3d I = possible(body.inertia);
   const SimTK::Inertia about_com(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
   const SimTK::Vec3 com = to_simtk(body.com);
   return {body.mass, com, about_com.shiftFromMassCenter(com, body.mass)};

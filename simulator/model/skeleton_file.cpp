@@ -29,9 +29,10 @@ struct LooseJoint {
 /// A principal moment below zero by more than rounding, in words; else empty.
 std::string no_body(const Eigen::Matrix3d& inertia) {
   constexpr double kRounding = 1e-6;  // of the largest: files round their numbers
+  constexpr double kNothing = 1e-12;  // kg m^2
   const Eigen::Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  return principal[0] < -kRounding * principal[2]
+  return principal[0] < -kRounding * principal[2] - kNothing
              ? "a principal moment of " + number_text(principal[0], 6) + " kg m^2"
              : "";
 }
@@ -53,7 +54,7 @@ class TreeBuilder {
     }
     refuse_loose_links();
     close_loops(skeleton);
-    refuse_moving_massless(skeleton);
+    hold_moving_massless(skeleton);
     judge_unusual(skeleton);
   }
 
@@ -222,17 +223,25 @@ class TreeBuilder {
   }
 
   /// A joint that moves must move mass: that of its own link or of links further out. (Links without mass
-  /// between two moving joints are how a base moves along several axes.)
-  void refuse_moving_massless(const Skeleton& skeleton) const {
+  /// between two moving joints are how a base moves along several axes.) URDF files end in such links, finger
+  /// tips and tools: their joints have no motion of their own, and are held at zero.
+  void hold_moving_massless(Skeleton& skeleton) const {
     std::vector<double> carried(skeleton.bodies.size());
     for (std::size_t i = skeleton.bodies.size(); i-- > 0;) {
       carried[i] += skeleton.bodies[i].mass;
-      const Joint& joint = skeleton.joints[i];
+      Joint& joint = skeleton.joints[i];
       if (joint.parent >= 0) {
         carried[static_cast<std::size_t>(joint.parent)] += carried[i];
       }
-      if (joint.type != JointType::fixed && carried[i] <= 0.0) {
-        const std::string& name = skeleton.bodies[i].name;
+      if (joint.type == JointType::fixed || carried[i] > 0.0) {
+        continue;
+      }
+      const std::string& name = skeleton.bodies[i].name;
+      if (xml_.is_urdf() && !joint.floats) {
+        joint.type = JointType::fixed;
+        skeleton.left_out.push_back("Joint " + joint.name + " of link " + name +
+                                    ", which carries nothing that has mass: it is held at zero.");
+      } else {
         xml_.refuse({name, xml_.line_of_link(name)}, "no <inertial> of a link that moves",
                     "its mass, centre of mass and inertia");
       }

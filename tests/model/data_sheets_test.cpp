@@ -159,7 +159,7 @@ TEST_F(DataSheets, AFixedLinkWithoutMassIsAFrame) {
   EXPECT_EQ(model.skeleton.bodies[static_cast<std::size_t>(model.body_index("tool"))].mass, 0.0);
   std::string moving = kArm;
   moving.replace(moving.find("0.5\"/>"), 6, "0\"/>");
-  EXPECT_THAT(test::refusal([&] { read("", "", moving); }), HasSubstr("no <inertial> of a link that moves"));
+  EXPECT_THAT(test::refusal([&] { read("", "", moving); }), HasSubstr("expected the name of a moving joint"));
   const std::string sdf = R"(<sdf version="1.9"><model name="m">
 <link name="a"><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>
 <link name="b"><inertial><mass>0</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz></inertia></inertial></link>

@@ -81,6 +81,13 @@ States known_states(const Stage& stage, const Data& some, const Stage& before, c
   return x0;
 }
 
+/// Is the error on all windows materially above the one on some of them? Then it may be
+/// the beginnings of windows that were not found, and not the law that fails there.
+bool is_lost(const Estimate& found, const Data& all, const Stage& stage, const Data& some,
+             const Policy& policy) {
+  return judged(found, all) > (1.0 + policy.material) * judged(stage.estimate, some);
+}
+
 /// Each finding's errors are those of the rung before its own and of its own.
 void set_errors_of_rungs(Diagnosis& diagnosis) {
   for (Finding& finding : diagnosis.accepted) {
@@ -119,6 +126,11 @@ void rescore(const Data& all, const Data& some, const Policy& policy, const Prog
     const EstimateOptions search{12, 1e-5, !goes_on};  // what the data hardly tell moves last
     const States from = goes_on ? known_states(rung.stage, some, before->stage, all) : States();
     Estimate found = gauss_newton(pool, rung.stage.parameters, theta, from, search);
+    if (!goes_on && before != nullptr && is_lost(found, all, rung.stage, some, policy)) {
+      take_better(gauss_newton(pool, rung.stage.parameters, theta,
+                               known_states(rung.stage, some, before->stage, all), {12, 1e-5, false}),
+                  found);
+    }
     if (before != nullptr) {
       const Estimate& there = before->stage.estimate;
       // What the rung before explains, this one does: else windows have ended in a poorer minimum.
@@ -131,7 +143,8 @@ void rescore(const Data& all, const Data& some, const Policy& policy, const Prog
       }
     }
     rung.stage.estimate = std::move(found);
-    progress(fmt::format("on all windows {}: {:.2f} floors", rung.name, judged(rung.stage.estimate, all)), 0.9);
+    progress(fmt::format("on all windows {}: {:.2f} floors", rung.name, judged(rung.stage.estimate, all)),
+             0.9);
     before = &rung;
   }
   diagnosis.final_stage = diagnosis.ladder.back().stage;
