@@ -88,8 +88,18 @@ bool is_lost(const Estimate& found, const Data& all, const Stage& stage, const D
   return judged(found, all) > (1.0 + policy.material) * judged(stage.estimate, some);
 }
 
-/// Each finding's errors are those of the rung before its own and of its own.
+/// Each finding's errors are those of the rung before its own and of its own; where it is the only one that
+/// is left, those without anything and of the answer.
 void set_errors_of_rungs(Diagnosis& diagnosis) {
+  const bool is_left = diagnosis.accepted.size() == 1 && diagnosis.ladder.back().name.rfind("- ", 0) == 0;
+  if (is_left && diagnosis.bare().length == diagnosis.ladder.back().length) {
+    Finding& one = diagnosis.accepted.front();
+    one.train_before = diagnosis.bare().train();
+    one.held_out_before = diagnosis.bare().held_out();
+    one.train_after = diagnosis.ladder.back().train();
+    one.held_out_after = diagnosis.ladder.back().held_out();
+    return;
+  }
   for (Finding& finding : diagnosis.accepted) {
     const auto r = static_cast<std::size_t>(std::max(finding.rung, 0));
     if (r == 0 || r >= diagnosis.ladder.size() ||
