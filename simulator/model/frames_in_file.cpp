@@ -1,7 +1,6 @@
 #include "simulator/model/frames_in_file.h"
 
-#include <Eigen/Geometry>
-
+#include "simulator/model/rotation_vector.h"
 #include "simulator/trace/units.h"
 
 namespace plumbline::model {
@@ -25,10 +24,7 @@ double factor_of(const YamlNode& unit, const char* like) {
 
 Eigen::Matrix3d turned(const YamlNode& turn) {
   turn.allow_keys({"value", "unit"});
-  const Vector3d angles = factor_of(turn.at("unit"), "rad") * three(turn.at("value"), "roll, pitch and yaw");
-  return (Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(angles.y(), Vector3d::UnitY()) * Eigen::AngleAxisd(angles.x(), Vector3d::UnitX()))
-      .toRotationMatrix();
+  return roll_pitch_yaw(factor_of(turn.at("unit"), "rad") * three(turn.at("value"), "roll, pitch and yaw"));
 }
 
 }  // namespace plumbline::model

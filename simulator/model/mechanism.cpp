@@ -2,7 +2,6 @@
 
 #include <Simbody.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "simulator/model/engine.h"
+#include "simulator/model/rigid_part.h"
 #include "simulator/model/tree_dynamics.h"
 
 namespace plumbline::model {
@@ -32,8 +32,7 @@ SimTK::Transform to_simtk(const Eigen::Isometry3d& X) {
 /// Simbody takes none that no body has (a URDF may state one): then the same with all three principal moments
 /// larger by as much as they lack.
 Eigen::Matrix3d possible(const Eigen::Matrix3d& inertia) {
-  const Eigen::Vector3d p =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d p = principal_moments(inertia);
   const double lacking = std::max(-p[0], p[2] - p[0] - p[1]);
   const double rounding = SimTK::SignificantReal * std::max(1.0, p.sum());  // Simbody's own
   return lacking <= rounding ? inertia : inertia + lacking * Eigen::Matrix3d::Identity();

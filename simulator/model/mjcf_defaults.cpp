@@ -4,9 +4,8 @@ namespace plumbline::model {
 
 using tinyxml2::XMLElement;
 
-MjcfDefaults::MjcfDefaults(const XMLElement& mujoco) {
-  for (const XMLElement* top = mujoco.FirstChildElement("default"); top != nullptr;
-       top = top->NextSiblingElement("default")) {
+MjcfDefaults::MjcfDefaults(const MjcfDocument& document) {
+  for (const XMLElement* top : document.sections("default")) {
     add(*top, "");
   }
 }

@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "simulator/model/mjcf_document.h"
+
 namespace plumbline::model {
 
 /// Looks attributes up in an element, else in its class: MJCF's <default> elements, which inherit.
 class MjcfDefaults {
  public:
   MjcfDefaults() = default;
-  explicit MjcfDefaults(const tinyxml2::XMLElement& mujoco);
+  explicit MjcfDefaults(const MjcfDocument& document);
 
   /// nullptr: nowhere. `childclass` is that of the bodies around.
   const char* attribute(const tinyxml2::XMLElement& element, const char* name,
@@ -23,8 +25,8 @@ class MjcfDefaults {
 
  private:
   struct Class {
-    std::vector<const tinyxml2::XMLElement*>
-        elements;        ///< a class may stand in several places; the last counts
+    /// In several sections, of which the last counts.
+    std::vector<const tinyxml2::XMLElement*> elements;
     std::string parent;  ///< empty: none
   };
   void add(const tinyxml2::XMLElement& element, const std::string& parent);

@@ -86,6 +86,15 @@ void MjcfDocument::append_part(const std::string& path, const std::string& text,
   }
 }
 
+std::vector<const tinyxml2::XMLElement*> MjcfDocument::sections(const char* name) const {
+  std::vector<const tinyxml2::XMLElement*> found;
+  for (const tinyxml2::XMLElement* one = root().FirstChildElement(name); one != nullptr;
+       one = one->NextSiblingElement(name)) {
+    found.push_back(one);
+  }
+  return found;
+}
+
 Place_in_file MjcfDocument::place(const tinyxml2::XMLElement& element) const {
   const auto index = static_cast<std::size_t>(std::max(element.GetLineNum(), 1) - 1);
   const Line& line = lines_[std::min(index, lines_.size() - 1)];

@@ -22,6 +22,8 @@ class MjcfDocument {
   const std::string& file() const { return file_; }
   const std::string& text() const { return text_; }
   const tinyxml2::XMLElement& root() const { return *document_.RootElement(); }
+  /// All top-level elements of a name: included files may bring one each.
+  std::vector<const tinyxml2::XMLElement*> sections(const char* name) const;
   /// Where an element stands: in the file itself, or in an included one.
   Place_in_file place(const tinyxml2::XMLElement& element) const;
 

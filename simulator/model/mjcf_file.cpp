@@ -11,6 +11,7 @@
 #include "simulator/model/mjcf_inertia.h"
 #include "simulator/model/mjcf_loops.h"
 #include "simulator/model/mjcf_values.h"
+#include "simulator/model/moving_masses.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
@@ -30,12 +31,12 @@ class MjcfReader : private MjcfValues {
   Skeleton read() {
     skeleton_.file = source_.file();
     skeleton_.gravity = Vector3d(0.0, 0.0, -9.81);
-    for (const XMLElement* option : sections("option")) {
+    for (const XMLElement* option : source_.sections("option")) {
       if (option->Attribute("gravity") != nullptr) {
         skeleton_.gravity = vector(*option, option->Attribute("gravity"), "gravity");
       }
     }
-    const std::vector<const XMLElement*> worlds = sections("worldbody");
+    const std::vector<const XMLElement*> worlds = source_.sections("worldbody");
     if (worlds.empty()) {
       refuse(*root_, "no <worldbody>", "one that holds the bodies");
     }
@@ -286,13 +287,9 @@ class MjcfReader : private MjcfValues {
 
   /// A joint that moves must move mass.
   void refuse_massless() const {
-    std::vector<double> carried(skeleton_.bodies.size());
+    const std::vector<double> carried = carried_masses(skeleton_);
     for (std::size_t i = skeleton_.bodies.size(); i-- > 0;) {
-      carried[i] += skeleton_.bodies[i].mass;
       const Joint& joint = skeleton_.joints[i];
-      if (joint.parent >= 0) {
-        carried[static_cast<std::size_t>(joint.parent)] += carried[i];
-      }
       if (joint.type != JointType::fixed && !(carried[i] > 0.0)) {
         throw InputError({source_.file(), 0, skeleton_.bodies[i].name}, "no mass of a body that moves",
                          "<inertial>, or geoms with a density");
@@ -312,7 +309,7 @@ class MjcfReader : private MjcfValues {
                                      {"keyframe", ""}}};
     for (const Part& part : parts) {
       int count = 0;
-      for (const XMLElement* section : sections(part.name)) {
+      for (const XMLElement* section : source_.sections(part.name)) {
         for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
              one = one->NextSiblingElement()) {
           count += is_mjcf_loop(*one) ? 0 : 1;

@@ -1,6 +1,5 @@
 #include "simulator/model/mjcf_inertia.h"
 
-#include <Eigen/Eigenvalues>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -21,7 +20,7 @@ constexpr double kNothing = 1e-12;
 }  // namespace
 
 MjcfInertia::MjcfInertia(const MjcfDocument& document) : MjcfValues(document) {
-  for (const XMLElement* compiler : sections("compiler")) {
+  for (const XMLElement* compiler : source_.sections("compiler")) {
     for (const char* folder : {"assetdir", "meshdir"}) {
       if (compiler->Attribute(folder) != nullptr) {
         mesh_folder_ = compiler->Attribute(folder);
@@ -62,8 +61,7 @@ void MjcfInertia::read_inertial(const XMLElement& inertial, Body& body) const {
     refuse(inertial, "a mass of " + number_text(body.mass) + " kg", "zero or more");
   }
   if (body.mass > 0.0) {
-    const Vector3d principal =
-        Eigen::SelfAdjointEigenSolver<Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector3d principal = principal_moments(body.inertia);
     if (!(principal[0] >= 0.0) || principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6) + kNothing) {
       refuse(inertial,
              "principal moments " + number_text(principal[0], 6) + ", " + number_text(principal[1], 6) +
@@ -112,7 +110,7 @@ RigidPart MjcfInertia::read_geom(const XMLElement& geom, const std::string& kind
 }
 
 const XMLElement* MjcfInertia::mesh_asset(const std::string& name) const {
-  for (const XMLElement* assets : sections("asset")) {
+  for (const XMLElement* assets : source_.sections("asset")) {
     for (const XMLElement* one = assets->FirstChildElement("mesh"); one != nullptr;
          one = one->NextSiblingElement("mesh")) {
       const char* given = one->Attribute("name");

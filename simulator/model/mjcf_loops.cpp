@@ -142,8 +142,7 @@ bool is_mjcf_loop(const XMLElement& element) {
 
 void read_mjcf_loops(const MjcfDocument& document, Skeleton& skeleton) {
   MjcfLoops loops(document, skeleton);
-  for (const XMLElement* section = document.root().FirstChildElement("equality"); section != nullptr;
-       section = section->NextSiblingElement("equality")) {
+  for (const XMLElement* section : document.sections("equality")) {
     for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
          one = one->NextSiblingElement()) {
       if (is_mjcf_loop(*one)) {

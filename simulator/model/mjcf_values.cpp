@@ -13,8 +13,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-MjcfValues::MjcfValues(const MjcfDocument& document) : source_(document), defaults_(document.root()) {
-  for (const XMLElement* compiler : sections("compiler")) {
+MjcfValues::MjcfValues(const MjcfDocument& document) : source_(document), defaults_(document) {
+  for (const XMLElement* compiler : source_.sections("compiler")) {
     if (const char* angle = compiler->Attribute("angle")) {
       angle_ = std::string(angle) == "radian" ? 1.0 : kDegree;
     }
@@ -26,15 +26,6 @@ MjcfValues::MjcfValues(const MjcfDocument& document) : source_(document), defaul
       refuse(*compiler, "global coordinates", "local ones");
     }
   }
-}
-
-std::vector<const XMLElement*> MjcfValues::sections(const char* name) const {
-  std::vector<const XMLElement*> found;
-  for (const XMLElement* one = source_.root().FirstChildElement(name); one != nullptr;
-       one = one->NextSiblingElement(name)) {
-    found.push_back(one);
-  }
-  return found;
 }
 
 void MjcfValues::refuse(const XMLElement& element, const std::string& found,

@@ -27,8 +27,6 @@ class MjcfValues {
 
   [[noreturn]] void refuse(const XMLElement& element, const std::string& found,
                            const std::string& expected) const;
-  /// All top-level elements of a name: included files may bring one each.
-  std::vector<const XMLElement*> sections(const char* name) const;
   std::vector<double> numbers(const XMLElement& element, const char* text, const std::string& name) const;
   Vector3d vector(const XMLElement& element, const char* text, const std::string& name) const;
   double number(const XMLElement& element, const char* name, const std::string& childclass,

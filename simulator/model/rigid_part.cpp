@@ -1,5 +1,6 @@
 #include "simulator/model/rigid_part.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace plumbline::model {
@@ -65,6 +66,10 @@ std::optional<RigidPart> solid(const std::string& kind, const std::vector<double
 
 RigidPart placed(const RigidPart& part, double mass, const Eigen::Isometry3d& X) {
   return {mass, X * part.com, mass / part.mass * (X.linear() * part.inertia * X.linear().transpose())};
+}
+
+Vector3d principal_moments(const Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 RigidPart together(const std::vector<RigidPart>& parts) {

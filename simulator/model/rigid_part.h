@@ -24,6 +24,9 @@ std::optional<RigidPart> solid(const std::string& kind, const std::vector<double
 /// With that mass, in the frame in which X is its pose.
 RigidPart placed(const RigidPart& part, double mass, const Eigen::Isometry3d& X);
 
+/// Principal moments of an inertia, the smallest first.
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia);
+
 /// All parts as one rigid body.
 RigidPart together(const std::vector<RigidPart>& parts);
 

@@ -1,4 +1,4 @@
-// Rotations as vectors: axis times angle.
+// Rotations as vectors: axis times angle, and roll, pitch, yaw.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,6 +12,14 @@ inline Eigen::Matrix3d rotation_of(const Eigen::Vector3d& r) {
   const double angle = r.norm();
   return angle > 0.0 ? Eigen::AngleAxisd(angle, r / angle).toRotationMatrix()
                      : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+}
+
+/// Roll, pitch and yaw as in URDF: about x, then the fixed y, then the fixed z.
+inline Eigen::Matrix3d roll_pitch_yaw(const Eigen::Vector3d& angles) {
+  return (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
 }
 
 /// The shortest r with R = exp([r]), |r| <= pi.

@@ -1,6 +1,5 @@
 #include "simulator/model/skeleton_export.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include "simulator/model/kinds.h"
 #include "simulator/model/mjcf_file.h"
+#include "simulator/model/rigid_part.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/skeleton_xml.h"
 #include "simulator/trace/error.h"
@@ -123,8 +123,7 @@ void find_changes(SkeletonEdit& edit, bool armature, bool says_gravity, Skeleton
 void refuse_impossible(const Model& model, const SkeletonEdit& edit) {
   for (std::size_t b = 0; b < edit.bodies.size(); ++b) {
     const Body& body = edit.after.bodies[b];
-    const Eigen::Vector3d principal =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::Vector3d principal = principal_moments(body.inertia);
     if (edit.bodies[b] && !(principal[0] > 0.0)) {
       throw InputError({model.file, 0, body.name},
                        "a principal moment of " + number_text(principal[0], 6) + " kg m^2",

@@ -1,13 +1,11 @@
 // SDFormat and URDF to a Skeleton, through libsdformat.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "simulator/model/joint_chain.h"
 #include "simulator/model/mjcf_file.h"
-#include "simulator/model/rigid_part.h"
+#include "simulator/model/moving_masses.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/sdformat_access.h"
-#include "simulator/trace/number_text.h"
 
 namespace plumbline::model {
 namespace {
@@ -26,17 +24,6 @@ struct LooseJoint {
   Eigen::Isometry3d X_MJ = Eigen::Isometry3d::Identity();
 };
 
-/// A principal moment below zero by more than rounding, in words; else empty.
-std::string no_body(const Eigen::Matrix3d& inertia) {
-  constexpr double kRounding = 1e-6;  // of the largest: files round their numbers
-  constexpr double kNothing = 1e-12;  // kg m^2
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  return principal[0] < -kRounding * principal[2] - kNothing
-             ? "a principal moment of " + number_text(principal[0], 6) + " kg m^2"
-             : "";
-}
-
 /// Puts links and joints into tree order and hangs the tree on the world.
 class TreeBuilder {
  public:
@@ -54,8 +41,8 @@ class TreeBuilder {
     }
     refuse_loose_links();
     close_loops(skeleton);
-    hold_moving_massless(skeleton);
-    judge_unusual(skeleton);
+    hold_moving_massless(xml_, skeleton);
+    judge_unusual(xml_, skeleton);
   }
 
  private:
@@ -219,71 +206,6 @@ class TreeBuilder {
             "a joint that does: a base that floats has a URDF joint of type floating, or the model says "
             "`floating_base: true`");
       }
-    }
-  }
-
-  /// A joint that moves must move mass: that of its own link or of links further out. (Links without mass
-  /// between two moving joints are how a base moves along several axes.) URDF files end in such links, finger
-  /// tips and tools: their joints have no motion of their own, and are held at zero.
-  void hold_moving_massless(Skeleton& skeleton) const {
-    std::vector<double> carried(skeleton.bodies.size());
-    for (std::size_t i = skeleton.bodies.size(); i-- > 0;) {
-      carried[i] += skeleton.bodies[i].mass;
-      Joint& joint = skeleton.joints[i];
-      if (joint.parent >= 0) {
-        carried[static_cast<std::size_t>(joint.parent)] += carried[i];
-      }
-      if (joint.type == JointType::fixed || carried[i] > 0.0) {
-        continue;
-      }
-      const std::string& name = skeleton.bodies[i].name;
-      if (xml_.is_urdf() && !joint.floats) {
-        joint.type = JointType::fixed;
-        skeleton.left_out.push_back("Joint " + joint.name + " of link " + name +
-                                    ", which carries nothing that has mass: it is held at zero.");
-      } else {
-        xml_.refuse({name, xml_.line_of_link(name)}, "no <inertial> of a link that moves",
-                    "its mass, centre of mass and inertia");
-      }
-    }
-  }
-
-  /// Where an unusual link moves, it and what is fixed to it must be a body: its moments not below zero. One
-  /// that is larger than the sum of the other two does no harm to the motion, and is said.
-  void judge_unusual(Skeleton& skeleton) const {
-    std::vector<std::size_t> holder(
-        skeleton.bodies.size());  // of all that is fixed to it; -1 as index: none moves
-    std::vector<bool> moves(skeleton.bodies.size(), true);
-    std::vector<Eigen::Isometry3d> on_holder(skeleton.bodies.size(), Eigen::Isometry3d::Identity());
-    std::vector<std::vector<RigidPart>> parts(skeleton.bodies.size());
-    for (std::size_t i = 0; i < skeleton.bodies.size(); ++i) {
-      const Joint& joint = skeleton.joints[i];
-      const Body& body = skeleton.bodies[i];
-      holder[i] = i;
-      if (joint.type == JointType::fixed) {
-        moves[i] = joint.parent >= 0 && moves[static_cast<std::size_t>(joint.parent)];
-        if (moves[i]) {
-          const auto parent = static_cast<std::size_t>(joint.parent);
-          holder[i] = holder[parent];
-          on_holder[i] = on_holder[parent] * joint.X_PJ * joint.X_CJ.inverse();
-        }
-      }
-      if (body.mass > 0.0) {
-        parts[holder[i]].push_back(placed({body.mass, body.com, body.inertia}, body.mass, on_holder[i]));
-      }
-    }
-    for (std::size_t i = 0; i < skeleton.bodies.size(); ++i) {
-      const std::string& name = skeleton.bodies[i].name;
-      if (xml_.unusual(name) == nullptr || !moves[i]) {
-        continue;
-      }
-      const std::string reason = no_body(together(parts[holder[i]]).inertia);
-      if (!reason.empty()) {
-        xml_.refuse({name + " inertia", xml_.line_of_link(name)}, reason + " of it and what is fixed to it",
-                    "moments that are not below zero");
-      }
-      skeleton.left_out.push_back("The inertia of link " + name +
-                                  ", which no body has, is taken as the file states it.");
     }
   }
 

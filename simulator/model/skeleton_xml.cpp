@@ -1,10 +1,11 @@
 #include "simulator/model/skeleton_xml.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <sstream>
 
+#include "simulator/model/rotation_vector.h"
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"
 
@@ -40,10 +41,16 @@ int line_of(const std::vector<XmlPart>& parts, const std::string& name) {
   return found == parts.end() ? 0 : found->line;
 }
 
+std::optional<Eigen::Vector3d> three_numbers(const std::string& text) {
+  std::istringstream words(text);
+  Eigen::Vector3d numbers;
+  words >> numbers.x() >> numbers.y() >> numbers.z();
+  return words && numbers.allFinite() ? std::optional(numbers) : std::nullopt;
+}
+
 /// Reason why no rigid body has these moments, or an empty text.
 std::string impossible(const Eigen::Matrix3d& inertia) {
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d principal = principal_moments(inertia);
   if (!(principal[0] > 0.0)) {
     return "a principal moment of " + number_text(principal[0], 6) + " kg m^2";
   }
@@ -227,25 +234,19 @@ std::string SkeletonXml::text() const {
 
 Eigen::Vector3d SkeletonXml::triple(const XMLElement& element, const char* name, const XmlPart& link) const {
   const std::string text = attribute(element, name);
-  std::istringstream words(text.empty() ? "0 0 0" : text);
-  Eigen::Vector3d numbers;
-  words >> numbers.x() >> numbers.y() >> numbers.z();
-  if (!words || !numbers.allFinite()) {
+  const std::optional<Eigen::Vector3d> numbers = three_numbers(text.empty() ? "0 0 0" : text);
+  if (!numbers) {
     refuse({link.name + " " + name, element.GetLineNum()}, "\"" + text + "\"", "three numbers");
   }
-  return numbers;
+  return *numbers;
 }
 
 RigidPart SkeletonXml::urdf_part(const XMLElement& inertial, const Eigen::Matrix3d& inertia, double mass,
                                  const XmlPart& link) const {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   if (const XMLElement* origin = inertial.FirstChildElement("origin")) {
-    const Eigen::Vector3d rpy = triple(*origin, "rpy", link);
     X.translation() = triple(*origin, "xyz", link);
-    X.linear() = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                  Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-                     .toRotationMatrix();
+    X.linear() = roll_pitch_yaw(triple(*origin, "rpy", link));
   }
   return placed({mass, Eigen::Vector3d::Zero(), inertia}, mass, X);
 }
@@ -345,9 +346,8 @@ void SkeletonXml::note_urdf_joint(const XMLElement& joint, const XmlPart& part) 
   }
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // URDF's axis where none is given
   if (const XMLElement* axis = joint.FirstChildElement("axis")) {
-    std::istringstream words(attribute(*axis, "xyz"));
-    words >> normal.x() >> normal.y() >> normal.z();
-    if (!words || !(normal.norm() > 0.0)) {
+    normal = three_numbers(attribute(*axis, "xyz")).value_or(Eigen::Vector3d::Zero());
+    if (!(normal.norm() > 0.0)) {
       refuse({part.name + " axis", axis->GetLineNum()}, "\"" + attribute(*axis, "xyz") + "\"",
              "three numbers that are not all zero");
     }

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulator/model/mjcf_drives.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
 #include "simulator/model/skeleton_export.h"
+#include "simulator/model/stated_drives.h"
 #include "tests/trace/refusal.h"
 #include "tests/trace/temporary_folder.h"
 

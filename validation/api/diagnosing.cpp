@@ -300,10 +300,7 @@ nlohmann::json to_json(const Answer& answer) {
     json["best_model"]["values"] = answer.best->fit.values;
     json["best_model"]["at_limits"] = answer.best->fit.at_limits;
   }
-  json["open"] = nlohmann::json::array();
-  for (const validation::LawShare& one : answer.open) {
-    json["open"].push_back({{"effect", one.effect}, {"at", one.at}, {"share", one.share}});
-  }
+  json["open"] = validation::to_json(answer.open);
   return json;
 }
 

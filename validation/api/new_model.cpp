@@ -8,7 +8,6 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
-#include "simulator/model/urdf_drives.h"
 #include "simulator/trace/error.h"
 #include "simulator/trace/file_text.h"
 #include "simulator/trace/number_text.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "simulator/model/mjcf_drives.h"
 #include "simulator/model/model.h"
+#include "simulator/model/stated_drives.h"
 #include "validation/api/new_model_columns.h"
 #include "validation/identify/trial/trial.h"
 

@@ -173,20 +173,20 @@ nlohmann::json to_json(const std::vector<Defect>& defects) {
   return json;
 }
 
-nlohmann::json to_json(const std::optional<OnePlace>& place) {
-  if (!place) {
-    return nullptr;
+nlohmann::json to_json(const std::vector<LawShare>& laws) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const LawShare& one : laws) {
+    json.push_back({{"effect", one.effect}, {"at", one.at}, {"share", one.share}});
   }
-  nlohmann::json laws = nlohmann::json::array();
-  for (const LawShare& one : place->laws) {
-    laws.push_back({{"effect", one.effect}, {"at", one.at}, {"share", one.share}});
-  }
-  return {{"at", place->at}, {"share", place->share}, {"laws", laws}};
+  return json;
 }
 
 nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left) {
   nlohmann::json json;
-  json["at_one_place"] = to_json(diagnosis.at_one_place);
+  json["at_one_place"] = nullptr;
+  if (const std::optional<OnePlace>& place = diagnosis.at_one_place) {
+    json["at_one_place"] = {{"at", place->at}, {"share", place->share}, {"laws", to_json(place->laws)}};
+  }
   json["verdict"] = to_string(diagnosis.verdict);
   json["summary"] = summary(diagnosis);
   json["unexplained_share"] = diagnosis.unexplained_share;

@@ -15,6 +15,7 @@ nlohmann::json to_json(const Comparison& comparison);
 nlohmann::json to_json(const std::vector<HorizonError>& errors);
 nlohmann::json to_json(const std::vector<Defect>& defects);
 nlohmann::json to_json(const UnexplainedForce& force);
+nlohmann::json to_json(const std::vector<LawShare>& laws);
 nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<UnexplainedForce>& left);
 
 }  // namespace plumbline::validation

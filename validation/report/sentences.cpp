@@ -293,9 +293,8 @@ std::string one_place_sentence(const OnePlace& place) {
     laws += fmt::format("{}{}{} {:.0f} %", laws.empty() ? "" : ", ", one.effect, where, 100.0 * one.share);
   }
   return fmt::format(
-      "Something is missing at {}: a law there is the best in {:.0f} % of the resamples. Which one these "
-      "data "
-      "cannot tell: {}.",
+      "Something is missing at {}: a law there is the best in {:.0f} % of the resamples. Which one "
+      "these data cannot tell: {}.",
       place.at, 100.0 * place.share, laws);
 }
 

@@ -81,8 +81,8 @@ States known_states(const Stage& stage, const Data& some, const Stage& before, c
   return x0;
 }
 
-/// Is the error on all windows materially above the one on some of them? Then it may be
-/// the beginnings of windows that were not found, and not the law that fails there.
+/// Is the error on all windows materially above the one on some of them? Then it may be the beginnings of
+/// windows that were not found, and not the law that fails there.
 bool is_lost(const Estimate& found, const Data& all, const Stage& stage, const Data& some,
              const Policy& policy) {
   return judged(found, all) > (1.0 + policy.material) * judged(stage.estimate, some);
@@ -118,7 +118,8 @@ void set_errors_of_rungs(Diagnosis& diagnosis) {
 // Far above the floor many windows have several minima, and so has the sum of them. Without corners the
 // answer's values are sought from two beginnings, and the better is that which still is when its windows are
 // settled anew. With corners the way over the windows' beginnings takes minutes, and was gone when the law
-// was tried on some of the windows: the search goes on from there.
+// was tried on some of the windows: the search goes on from there. So it does where a search from the
+// measurements ends materially above what was reached on some of them.
 void rescore(const Data& all, const Data& some, const Policy& policy, const Progress& progress,
              Diagnosis& diagnosis) {
   const double length = diagnosis.ladder.back().length;

@@ -1,10 +1,11 @@
-#include "simulator/model/mjcf_drives.h"
+#include "simulator/model/stated_drives.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "simulator/model/mjcf_values.h"
+#include "simulator/trace/file_text.h"
 
 namespace plumbline::model {
 namespace {
@@ -25,7 +26,7 @@ class DrivesReader : private MjcfValues {
  private:
   template <typename Work>
   void each(const char* name, const Work& work) const {
-    for (const XMLElement* section : sections(name)) {
+    for (const XMLElement* section : source_.sections(name)) {
       for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
            one = one->NextSiblingElement()) {
         work(*one);
@@ -122,6 +123,31 @@ class DrivesReader : private MjcfValues {
 MjcfDrives read_mjcf_drives(const std::string& path) {
   const MjcfDocument document(path);
   return DrivesReader(document).read();
+}
+
+std::set<std::string> urdf_driven_joints(const std::string& path) {
+  std::set<std::string> driven;
+  tinyxml2::XMLDocument document;
+  const std::string text = read_text(path);
+  document.Parse(text.data(), text.size());
+  const tinyxml2::XMLElement* robot = document.FirstChildElement("robot");
+  if (robot == nullptr) {
+    return driven;
+  }
+  const auto take = [&](const char* name) {
+    if (name != nullptr) {
+      driven.insert(name);
+    }
+  };
+  for (const auto* one = robot->FirstChildElement("transmission"); one != nullptr;
+       one = one->NextSiblingElement("transmission")) {
+    take(one->Attribute("joint"));
+    for (const auto* joint = one->FirstChildElement("joint"); joint != nullptr;
+         joint = joint->NextSiblingElement("joint")) {
+      take(joint->Attribute("name"));
+    }
+  }
+  return driven;
 }
 
 }  // namespace plumbline::model

@@ -1,8 +1,9 @@
-// What drives the joints of an MJCF file, and how well its sensors read them: for a model that is made from
+// What drives the joints of a robot file, and how well its sensors read them: for a model that is made from
 // the file. The skeleton itself has neither.
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,10 @@ struct MjcfDrives {
 /// tendon, a site or a slider-crank drives no single joint and is passed over. Throws InputError (file, line,
 /// element) for a joint that is not there, and for numbers that are none.
 MjcfDrives read_mjcf_drives(const std::string& path);
+
+/// The joints that the file's <transmission> elements name; empty where it has none, and for other formats.
+/// Both forms are read: <transmission><joint name="..."/>, and the older one with the joint's name in an
+/// attribute. Source: ROS wiki, "urdf/XML/Transmission".
+std::set<std::string> urdf_driven_joints(const std::string& path);
 
 }  // namespace plumbline::model
