@@ -25,7 +25,7 @@ Loop::Type type_of(const YamlNode& entry) {
   type.refuse("connect, hinge, weld or rod");
 }
 
-int link_of(const YamlNode& end, const Model& model) {
+int end_link_of(const YamlNode& end, const Model& model) {
   const YamlNode link = end.at("link");
   if (link.text() == kWorld) {
     return -1;
@@ -52,7 +52,7 @@ LoopEnd read_end(const YamlNode& node, Loop::Type type, const Model& model) {
                   : type == Loop::Type::weld ? std::vector<std::string>{"link", "value", "unit", "turn"}
                                              : std::vector<std::string>{"link", "value", "unit"});
   LoopEnd end;
-  end.body = link_of(node, model);
+  end.body = end_link_of(node, model);
   end.point = factor_of(node.at("unit"), "m") * three(node.at("value"), "[x, y, z] in the link's frame");
   if (type == Loop::Type::hinge) {
     end.axes = about(node.at("axis"));

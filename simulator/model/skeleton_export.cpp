@@ -18,7 +18,7 @@
 namespace plumbline::model {
 namespace {
 
-constexpr int kDigits = 12;
+constexpr int kFileDigits = 12;
 constexpr double kSame = 1e-12;     // of the largest: no other value
 constexpr double kReadBack = 1e-9;  // of the largest: digits of the file and their way through its frames
 
@@ -157,7 +157,7 @@ void check_read_back(const std::string& file, const Skeleton& before, const Skel
 
 }  // namespace
 
-std::string file_number(double value) { return number_text(value == 0.0 ? 0.0 : value, kDigits); }
+std::string file_number(double value) { return number_text(value == 0.0 ? 0.0 : value, kFileDigits); }
 
 std::string file_vector(const Eigen::Vector3d& v) {
   return file_number(v.x()) + " " + file_number(v.y()) + " " + file_number(v.z());

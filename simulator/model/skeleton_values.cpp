@@ -15,7 +15,7 @@ namespace {
 using effects::Place;
 
 constexpr int kDeepest = 16;  // coordinates over pulleys over coordinates: more is a circle
-constexpr int kDigits = 6;    // of numbers in sentences
+constexpr int kSentenceDigits = 6;    // of numbers in sentences
 
 struct OneJoint {
   std::size_t joint = 0;
@@ -102,7 +102,7 @@ class Collector {
     if (const auto one = alone(at)) {
       values_.joints[one->joint].*which += std::pow(std::abs(one->factor), power) * amount;
     } else {
-      leave_out(what + " at " + at + ", " + number_text(amount, kDigits) + " " +
+      leave_out(what + " at " + at + ", " + number_text(amount, kSentenceDigits) + " " +
                 unit_of(which, is_angular(model_, at)) + ": no joint moves with it alone.");
     }
   }
@@ -159,7 +159,7 @@ class Collector {
     std::string text = "The effect " + use.label() + " (";
     const auto& parameters = use.law->declaration().parameters;
     for (std::size_t p = 0; p < parameters.size(); ++p) {
-      text += (p == 0 ? "" : ", ") + parameters[p].name + " " + number_text(use.values[p].value, kDigits);
+      text += (p == 0 ? "" : ", ") + parameters[p].name + " " + number_text(use.values[p].value, kSentenceDigits);
     }
     return text + ", SI).";
   }
@@ -175,7 +175,7 @@ class Collector {
       const double gain = one->factor * motor.torque_constant.value;
       if (gain != 1.0) {
         const Joint& joint = model_.skeleton.joints[one->joint];
-        leave_out("Motor " + motor.name + ": " + number_text(gain, kDigits) + " " +
+        leave_out("Motor " + motor.name + ": " + number_text(gain, kSentenceDigits) + " " +
                   force_unit(joint.type == JointType::revolute) + " at joint " + joint.name + " for each " +
                   motor.command_unit + " of its command.");
       }

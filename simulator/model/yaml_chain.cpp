@@ -47,6 +47,15 @@ std::vector<YamlNode> read_chain(const std::string& path, const std::string& for
   return chain;
 }
 
+std::optional<YamlNode> find_newest(const std::vector<YamlNode>& chain, const std::string& key) {
+  for (const YamlNode& document : chain) {
+    if (auto found = document.find(key)) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
 std::string beside(const std::string& file, const std::string& relative) {
   return (fs::path(file).parent_path() / relative).lexically_normal().string();
 }

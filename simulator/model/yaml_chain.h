@@ -1,6 +1,7 @@
 // Files that change a few values of another file, their `base`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace plumbline::model {
 /// The documents from the named file down to the one without a `base`. Each must say `plumbline: <format>`.
 /// Throws InputError where one does not, where a base is no file, and where bases go round in a circle.
 std::vector<YamlNode> read_chain(const std::string& path, const std::string& format);
+
+/// The value of a key in the newest document of a chain that states it.
+std::optional<YamlNode> find_newest(const std::vector<YamlNode>& chain, const std::string& key);
 
 /// A path that is written relative to the file `file`.
 std::string beside(const std::string& file, const std::string& relative);

@@ -14,20 +14,10 @@ namespace {
 
 using model::YamlNode;
 
-constexpr const char* kFormat = "controller/2";
-
-/// The value of a key in the newest document of a chain that states it.
-std::optional<YamlNode> find_newest(const std::vector<YamlNode>& chain, const std::string& key) {
-  for (const YamlNode& document : chain) {
-    if (auto found = document.find(key)) {
-      return found;
-    }
-  }
-  return std::nullopt;
-}
+constexpr const char* kControllerFormat = "controller/2";
 
 YamlNode newest(const std::vector<YamlNode>& chain, const std::string& key) {
-  const auto found = find_newest(chain, key);
+  const auto found = model::find_newest(chain, key);
   return found ? *found : chain.back().at(key);  // whose message says what is missing, and where
 }
 
@@ -175,13 +165,13 @@ std::size_t ControllerSetup::constant_index(const std::string& name) const {
 }
 
 ControllerSetup read_controller(const std::string& path) {
-  const std::vector<YamlNode> chain = model::read_chain(path, kFormat);
+  const std::vector<YamlNode> chain = model::read_chain(path, kControllerFormat);
   for (const YamlNode& document : chain) {
     document.allow_keys(
         {"plumbline", "base", "library", "title", "note", "period", "constants", "inputs", "outputs"});
   }
   ControllerSetup setup{path, "", load(newest(chain, "library")), 0.0, {}, {}, {}, {}, {path, 0, "inputs"}};
-  const auto title = find_newest(chain, "title");
+  const auto title = model::find_newest(chain, "title");
   setup.title = title ? title->text() : setup.library.api().name;
   setup.period =
       model::read_quantity(newest(chain, "period"), {"s", model::QuantityRule::Sign::positive, false, {}})
@@ -209,7 +199,7 @@ void write_constants(const std::string& path, const std::string& base_file, cons
                      const std::vector<std::string>& names, const std::string& note,
                      const std::string& origin) {
   YAML::Emitter out;
-  model::begin_overlay(out, path, kFormat, base_file, note);
+  model::begin_overlay(out, path, kControllerFormat, base_file, note);
   out << YAML::Key << "constants" << YAML::Value << YAML::BeginMap;
   const auto ports = setup.library.constants();
   for (const std::string& name : names) {

@@ -15,19 +15,10 @@ namespace {
 
 using model::YamlNode;
 
-constexpr const char* kFormat = "scenario/1";
-
-std::optional<YamlNode> newest(const std::vector<YamlNode>& chain, const std::string& key) {
-  for (const YamlNode& document : chain) {
-    if (auto found = document.find(key)) {
-      return found;
-    }
-  }
-  return std::nullopt;
-}
+constexpr const char* kScenarioFormat = "scenario/1";
 
 YamlNode needed(const std::vector<YamlNode>& chain, const std::string& key) {
-  const auto found = newest(chain, key);
+  const auto found = model::find_newest(chain, key);
   return found ? *found : chain.back().at(key);
 }
 
@@ -205,31 +196,31 @@ ScenarioFiles files_of(const std::vector<YamlNode>& chain) {
   ScenarioFiles files;
   const YamlNode model = needed(chain, "model");
   files.model = model::beside(model.file(), model.text());
-  if (const auto controller = newest(chain, "controller")) {
+  if (const auto controller = model::find_newest(chain, "controller")) {
     files.controller = model::beside(controller->file(), controller->text());
   }
   return files;
 }
 
 void read_sections(const std::vector<YamlNode>& chain, const model::Model& model, Scenario& scenario) {
-  if (const auto quantities = newest(chain, "quantities")) {
+  if (const auto quantities = model::find_newest(chain, "quantities")) {
     for (const auto& [name, node] : quantities->entries()) {
       scenario.quantities.push_back(read_quantity(name, node, model));
     }
   }
-  if (const auto terrain = newest(chain, "terrain")) {
+  if (const auto terrain = model::find_newest(chain, "terrain")) {
     scenario.terrain = model::read_terrain(*terrain);
   }
   scenario.longest = model::read_positive(needed(chain, "length"), "s");
-  if (const auto start = newest(chain, "start")) {
+  if (const auto start = model::find_newest(chain, "start")) {
     scenario.start = read_start(*start, scenario, model);
   }
-  if (const auto vary = newest(chain, "vary")) {
+  if (const auto vary = model::find_newest(chain, "vary")) {
     for (const YamlNode& node : vary->items()) {
       scenario.drawn.push_back(read_drawn(node, scenario, model));
     }
   }
-  if (const auto ends = newest(chain, "ends")) {
+  if (const auto ends = model::find_newest(chain, "ends")) {
     for (const YamlNode& node : ends->items()) {
       scenario.ends.push_back(read_end(node, scenario, model));
     }
@@ -244,15 +235,15 @@ double Quantity::value(const model::Plant& plant, const double* x) const {
 }
 
 std::optional<YamlNode> section_of_scenario(const std::string& path, const std::string& key) {
-  return newest(model::read_chain(path, kFormat), key);
+  return model::find_newest(model::read_chain(path, kScenarioFormat), key);
 }
 
 ScenarioFiles files_of_scenario(const std::string& path) {
-  return files_of(model::read_chain(path, kFormat));
+  return files_of(model::read_chain(path, kScenarioFormat));
 }
 
 LoadedScenario read_scenario(const std::string& path, const ScenarioFiles& in_place) {
-  const std::vector<YamlNode> chain = model::read_chain(path, kFormat);
+  const std::vector<YamlNode> chain = model::read_chain(path, kScenarioFormat);
   for (const YamlNode& document : chain) {
     document.allow_keys({"plumbline", "base", "title", "note", "model", "controller", "length", "terrain",
                          "quantities", "start", "vary", "ends", "gait"});

@@ -121,9 +121,9 @@ std::string column_name(const BagTopic& topic, const std::string& path, const Ro
 }
 
 /// Columns that grow with the messages; a message that has not a field leaves NaN.
-class Collector {
+class BagCollector {
  public:
-  explicit Collector(const BagTopic& topic) : topic_(topic) {}
+  explicit BagCollector(const BagTopic& topic) : topic_(topic) {}
 
   void add(std::int64_t receipt, const RosValues& values) {
     const bool is_array = topic_.type.find("MultiArray") != std::string::npos;
@@ -176,7 +176,7 @@ class Collector {
 std::vector<Column> columns_of(const Bag& bag, const BagTopic& topic) {
   require_readable(bag.path(), topic);
   const RosDefinitions definitions = definitions_of(bag.path(), topic);
-  Collector rows(topic);
+  BagCollector rows(topic);
   bag.read(topic, [&](std::int64_t receipt, std::string_view message) {
     rows.add(receipt, decode_ros_message({bag.path(), topic.name}, topic.type, definitions, message,
                                          topic.encoding == "ros1" ? RosEncoding::ros1 : RosEncoding::cdr));

@@ -14,12 +14,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Collects records into columns; what a record has not is a missing cell.
-class Collector {
+class JsonCollector {
  public:
-  explicit Collector(const std::string& path) { log_.table.file = path; }
+  explicit JsonCollector(const std::string& path) { log_.table.file = path; }
 
   void add(const json& record, int line) {
     line_ = line;
@@ -27,7 +27,7 @@ class Collector {
     flatten("", record);
     for (std::size_t i = 0; i < values_.size(); ++i) {
       if (values_[i].size() < static_cast<std::size_t>(rows_)) {
-        values_[i].push_back(kNone);
+        values_[i].push_back(kNoNumber);
         note_bad_cell(log_.table.columns[i].name, {line_, rows_, "", true}, log_);
       }
     }
@@ -67,12 +67,12 @@ class Collector {
     }
     if (at == values_.size()) {
       log_.table.columns.push_back({name, "", {}});
-      values_.emplace_back(static_cast<std::size_t>(rows_ - 1), kNone);
+      values_.emplace_back(static_cast<std::size_t>(rows_ - 1), kNoNumber);
       if (rows_ > 1) {
         note_bad_cell(name, {0, 1, "", true}, log_);
       }
     }
-    double number = kNone;
+    double number = kNoNumber;
     if (value.is_number()) {
       number = value.get<double>();
     } else if (value.is_boolean()) {
@@ -82,9 +82,9 @@ class Collector {
     }
     if (!std::isfinite(number)) {
       note_bad_cell(name, {line_, rows_, value.dump(), value.is_null()}, log_);
-      number = kNone;
+      number = kNoNumber;
     }
-    values_[at].resize(static_cast<std::size_t>(rows_), kNone);
+    values_[at].resize(static_cast<std::size_t>(rows_), kNoNumber);
     values_[at].back() = number;
   }
 
@@ -115,7 +115,7 @@ bool is_object_of_lists(const json& value) {
   return false;
 }
 
-void add_lists(const json& lists, Collector& collector) {
+void add_lists(const json& lists, JsonCollector& collector) {
   std::size_t longest = 0;
   for (const auto& [key, list] : lists.items()) {
     longest = std::max(longest, list.is_array() ? list.size() : std::size_t{0});
@@ -135,7 +135,7 @@ void add_lists(const json& lists, Collector& collector) {
 
 LogFile read_json_log(const std::string& path) {
   const std::string text = read_text(path);
-  Collector collector(path);
+  JsonCollector collector(path);
   const json whole = json::parse(text, nullptr, false);
   if (whole.is_array()) {
     for (const json& record : whole) {

@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDigits = 4;
+constexpr int kSentenceDigits = 4;
 
-std::string number(double value) { return number_text(value, kDigits); }
+std::string number(double value) { return number_text(value, kSentenceDigits); }
 
 /// A text as YAML takes it between double quotes.
 std::string quoted(const std::string& text) {

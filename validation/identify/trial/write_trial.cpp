@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDigits = 15;  // 0.003 stays 0.003, and 1e-15 is far below every sensor
+constexpr int kFileDigits = 15;  // 0.003 stays 0.003, and 1e-15 is far below every sensor
 constexpr const char* kGainSource = "taken over from the trial that this one was made from";
 
 std::string or_else(const std::string& text, const std::string& fallback) {
@@ -294,7 +294,7 @@ void write_trial(const Trial& trial, const model::Model& model, const std::strin
   TrialWriter writer(trial, model, fs::absolute(folder).lexically_normal());
   const std::string yaml = writer.yaml();
   write_new_folder(folder, [&](const std::string& temporary) {
-    write_csv(writer.table(), (fs::path(temporary) / "data.csv").string(), kDigits);
+    write_csv(writer.table(), (fs::path(temporary) / "data.csv").string(), kFileDigits);
     write_text_atomically((fs::path(temporary) / "trial.yaml").string(), yaml);
   });
 }

@@ -13,9 +13,7 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kHandStep = 1e-3;  // of the balanced coordinate, for the readings' slope
-constexpr double kSettled = 1e-5;   // step in units of the parameters; equilibria are exact to about 1e-8
-constexpr double kWeak = 0.5;
-constexpr double kStrong = 0.95;
+constexpr double kPostureSettled = 1e-5;   // step in units of the parameters; equilibria are exact to about 1e-8
 
 /// All postures of one fit: predictions for any parameters, and residuals with unit covariance.
 class PostureProblem {
@@ -151,7 +149,7 @@ Eigen::VectorXd solve(PostureProblem& problem, const std::vector<FreeParameter>&
     const Eigen::VectorXd step = H.ldlt().solve(sizes.cwiseProduct(normal.g));
     const double longest = step.cwiseAbs().maxCoeff();
     theta += sizes.cwiseProduct(step) * std::min(1.0, 0.7 / std::max(longest, 1e-300));
-    if (longest < kSettled) {
+    if (longest < kPostureSettled) {
       *converged = true;
       break;
     }
@@ -210,8 +208,8 @@ StepResult posture_fit(const Recipe& recipe, const Step& step, const Postures& p
         .push_back(finding_of(list[p], theta[i], deviation, quantile));
   }
   const Eigen::MatrixXd information = inverse.topLeftCorner(free, free).inverse();
-  result.weak = weak_directions(information, step.free, kWeak);
-  result.correlations = strong_correlations(information, step.free, kStrong);
+  result.weak = weak_directions(information, step.free);
+  result.correlations = strong_correlations(information, step.free);
   return result;
 }
 

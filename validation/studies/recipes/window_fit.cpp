@@ -13,9 +13,7 @@
 namespace plumbline::validation {
 namespace {
 
-constexpr double kWeak = 0.5;                    // as a share of the values: worse is not known
-constexpr double kStrong = 0.95;                 // correlation worth a line
-constexpr double kSettled = 1e-8;                // relative change of the cost
+constexpr double kWindowSettled = 1e-8;                // relative change of the cost
 constexpr double kSettledThroughContact = 1e-6;  // less than the integrator's own error there would be noise
 
 IdentifiedValue finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
@@ -76,7 +74,7 @@ void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
 
 double settled(const Data& data) {
   const auto has_contact = [](const Trial& trial) { return !trial.switches.empty(); };
-  return std::any_of(data.trials.begin(), data.trials.end(), has_contact) ? kSettledThroughContact : kSettled;
+  return std::any_of(data.trials.begin(), data.trials.end(), has_contact) ? kSettledThroughContact : kWindowSettled;
 }
 
 struct Fitted {
@@ -152,8 +150,8 @@ StepResult window_fit(const Recipe& recipe, const Step& step, const std::vector<
   if (step.method == "information") {
     set_deviations(H, search_units(parameters, fitted.estimate.theta), list, result.findings);
   }
-  result.weak = weak_directions(H, names, kWeak);
-  result.correlations = strong_correlations(H, names, kStrong);
+  result.weak = weak_directions(H, names);
+  result.correlations = strong_correlations(H, names);
   result.before = fitted.given.scores.train;
   result.after = fitted.estimate.scores.train;
   result.windows = static_cast<int>(data.windows.size());

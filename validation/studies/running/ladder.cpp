@@ -16,7 +16,6 @@ namespace {
 
 using model::YamlNode;
 
-constexpr double kStep = 2.5e-4;  // s, of the integration on the paper's model
 // Strides behind the push between which the contraction is taken: the fast multipliers are gone, the slow one
 // is above what counts leave.
 constexpr std::size_t kFirst = 3, kLast = 14, kLeast = 2;
@@ -55,7 +54,7 @@ RungResult on_paper(const RunningLadder& ladder) {
   const monopod::Gait& gait = published.running.gait;
   std::vector<StrideFacts> facts;
   const auto sections =
-      touchdowns(published.model, gait, gait.section, static_cast<int>(ladder.cycles) + 1, kStep, &facts);
+      touchdowns(published.model, gait, gait.section, static_cast<int>(ladder.cycles) + 1, kIntegrationStep, &facts);
   result.steps = static_cast<long>(sections.size()) - 1;
   result.fell = result.steps < ladder.cycles;
   result.end = result.fell ? "fell" : "";
@@ -63,7 +62,7 @@ RungResult on_paper(const RunningLadder& ladder) {
     result.period = facts.back().stance + facts.back().flight;
     result.speed = sections.back()[6];
   }
-  result.contraction = multipliers(linear_return(published.model, gait, kStep).by_state).front();
+  result.contraction = multipliers(linear_return(published.model, gait, kIntegrationStep).by_state).front();
   return result;
 }
 

@@ -30,7 +30,6 @@ using Sign = model::QuantityRule::Sign;
 using Relation = PublishedQuantity::Relation;
 
 constexpr const char* kFormat = "published_running/1";
-constexpr double kStep = 2.5e-4;        // s
 constexpr double kSameConstant = 1e-6;  // relative: files are written with ten digits
 constexpr std::size_t kLate = 5;        // touchdowns after the push from which the contraction is taken
 
@@ -153,7 +152,7 @@ class Runner {
  public:
   explicit Runner(const PublishedRunning& published) : p_(published) {
     run_nominal();
-    map_ = linear_return(p_.model, gait(), kStep);
+    map_ = linear_return(p_.model, gait(), kIntegrationStep);
     push();
   }
 
@@ -209,7 +208,7 @@ class Runner {
   const Gait& gait() const { return p_.running.gait; }
 
   void run_nominal() {
-    HybridRun run(monopod::Running(p_.model, gait()), kStep);
+    HybridRun run(monopod::Running(p_.model, gait()), kIntegrationStep);
     run.record = &samples_;
     run.state = state_at(p_.model, gait().section);
     if (!run.stand() || !run.fly()) {
@@ -225,7 +224,7 @@ class Runner {
     start.segment<3>(3).array() += p_.recovery.rate;
     start[6] += p_.recovery.forward;
     start[7] += p_.recovery.rise;
-    pushed_ = touchdowns(p_.model, gait(), start, static_cast<int>(p_.recovery.travel.size()), kStep);
+    pushed_ = touchdowns(p_.model, gait(), start, static_cast<int>(p_.recovery.travel.size()), kIntegrationStep);
   }
 
   double measured(const std::string& measure) const {

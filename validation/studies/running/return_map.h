@@ -15,6 +15,9 @@ std::optional<monopod::Section> next_touchdown(const monopod::Constants& c, cons
                                                const monopod::Section& section, double step = 5e-4,
                                                StrideFacts* facts = nullptr);
 
+/// Steps on the paper's model where multipliers and touchdowns are reported.
+inline constexpr double kIntegrationStep = 2.5e-4;  // s
+
 struct LinearReturn {
   Eigen::Matrix<double, 8, 8> by_state;  ///< dP/dx
   Eigen::Matrix<double, 8, 3> by_beta;   ///< dP/dbeta
