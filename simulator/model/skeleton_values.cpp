@@ -14,8 +14,8 @@ namespace {
 
 using effects::Place;
 
-constexpr int kDeepest = 16;  // coordinates over pulleys over coordinates: more is a circle
-constexpr int kSentenceDigits = 6;    // of numbers in sentences
+constexpr int kDeepest = 16;        // coordinates over pulleys over coordinates: more is a circle
+constexpr int kSentenceDigits = 6;  // of numbers in sentences
 
 struct OneJoint {
   std::size_t joint = 0;
@@ -159,7 +159,8 @@ class Collector {
     std::string text = "The effect " + use.label() + " (";
     const auto& parameters = use.law->declaration().parameters;
     for (std::size_t p = 0; p < parameters.size(); ++p) {
-      text += (p == 0 ? "" : ", ") + parameters[p].name + " " + number_text(use.values[p].value, kSentenceDigits);
+      text +=
+          (p == 0 ? "" : ", ") + parameters[p].name + " " + number_text(use.values[p].value, kSentenceDigits);
     }
     return text + ", SI).";
   }

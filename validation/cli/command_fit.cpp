@@ -11,6 +11,7 @@
 #include "validation/cli/interrupt.h"
 #include "validation/cli/output.h"
 #include "validation/cli/recipe_report.h"
+#include "validation/identify/diagnose/judged.h"
 #include "validation/identify/standard/result.h"
 
 namespace plumbline::cli {
@@ -108,6 +109,10 @@ void print(const Fit& fit, const Loaded& loaded, const Options& options) {
   }
   if (fit.after.test > 0.0) {
     fmt::print("On the trials of role test: {:.3f} before, {:.3f} after\n", fit.before.test, fit.after.test);
+  }
+  if (validation::judged(fit.after, *loaded.data) > validation::judged(fit.before, *loaded.data)) {
+    fmt::print(
+        "The values before predict better than those after: the model as it was is the one to keep.\n");
   }
   if (fit.after.train > options.fit.explained) {
     fmt::print(

@@ -168,18 +168,39 @@ TEST_F(Uneven, SectionsAndWhatIsLeftOutMakeStretches) {
   EXPECT_EQ(trial.stretches[2].end, trial.samples());
 }
 
+/// Takes the angle out of a row of a log.
+void lose_angle(std::string& csv, int row) {
+  std::size_t begin = 0;
+  for (int line = 0; line <= row; ++line) {
+    begin = csv.find('\n', begin) + 1;
+  }
+  for (int comma = 0; comma < 3; ++comma) {
+    begin = csv.find(',', begin) + 1;
+  }
+  csv.replace(begin, csv.find(',', begin) - begin, "nan");
+}
+
+TEST_F(Uneven, CellsMayMissWhereTheTrialDoesNotLook) {
+  std::string csv = log_at(even_times(0.01, 101));
+  lose_angle(csv, 5);
+  lose_angle(csv, 40);
+  lose_angle(csv, 90);
+  const std::string section =
+      "section: {from: {value: 0.1, unit: s}, to: {value: 0.8, unit: s}}\ncommands:\n";
+  const std::string message = input_error([&] { read(csv, "commands:\n", section); });
+  EXPECT_NE(message.find("angle: found an empty field in row 41"), std::string::npos) << message;
+  const Trial left =
+      read(csv, "commands:\n",
+           "leave_out: [{from: {value: 0.395, unit: s}, to: {value: 0.405, unit: s}}]\n" + section);
+  EXPECT_EQ(left.stretches.size(), 2U);
+  EXPECT_NEAR(left.time[0], 0.1, 1e-9);
+  EXPECT_NEAR(left.time[left.samples() - 1], 0.8, 1e-9);
+  EXPECT_LT(error(left), 1e-3);
+}
+
 TEST_F(Uneven, MissingCellsAreFilledOnlyWhereTheTrialSaysSo) {
   std::string csv = log_at(even_times(0.01, 101));
-  const auto lose = [&](int row) {  // its angle
-    std::size_t begin = 0;
-    for (int line = 0; line <= row; ++line) {
-      begin = csv.find('\n', begin) + 1;
-    }
-    for (int comma = 0; comma < 3; ++comma) {
-      begin = csv.find(',', begin) + 1;
-    }
-    csv.replace(begin, csv.find(',', begin) - begin, "nan");
-  };
+  const auto lose = [&](int row) { lose_angle(csv, row); };
   lose(31);
   const std::string message = input_error([&] { read(csv); });
   EXPECT_NE(message.find("angle: found \"nan\""), std::string::npos) << message;

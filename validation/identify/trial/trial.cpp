@@ -101,10 +101,33 @@ class TrialReader {
   }
 
  private:
+  bool is_used(double time) const {
+    const auto has = [time](const Section& part) { return part.from <= time && time <= part.to; };
+    const std::vector<Section>& in = file_.sections;
+    return (in.empty() || std::any_of(in.begin(), in.end(), has)) &&
+           std::none_of(file_.left_out.begin(), file_.left_out.end(), has);
+  }
+
+  /// What is in no section, or left out, may lack numbers without being asked.
+  void refuse_missing(const std::string& column, const Eigen::VectorXd& values) const {
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      if (!std::isfinite(values[k]) && is_used(rows_.time[k])) {
+        throw InputError(
+            {log_.table.file, 0, column},
+            "an empty field in row " + std::to_string(rows_.rows[static_cast<std::size_t>(k)] + 1),
+            "finite numbers; `missing: fill` in trial.yaml bridges missing ones");
+      }
+    }
+  }
+
   /// The kept rows of a column, missing cells bridged.
   Signal rows_of_column(const ColumnUse& use, bool hold) {
-    Signal signal = read_signal(log_, use, file_.fill_missing);
+    const bool is_in_part = !file_.sections.empty() || !file_.left_out.empty();
+    Signal signal = read_signal(log_, use, file_.fill_missing || is_in_part);
     signal.values = kept(signal.values, rows_.rows);
+    if (!file_.fill_missing) {
+      refuse_missing(use.name, signal.values);
+    }
     if (!grid_.fill(signal.values, hold, gaps_)) {
       throw InputError({log_.table.file, 0, use.name}, "no number in the whole column", "numbers");
     }

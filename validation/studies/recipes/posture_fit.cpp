@@ -13,7 +13,8 @@ namespace plumbline::validation {
 namespace {
 
 constexpr double kHandStep = 1e-3;  // of the balanced coordinate, for the readings' slope
-constexpr double kPostureSettled = 1e-5;   // step in units of the parameters; equilibria are exact to about 1e-8
+constexpr double kPostureSettled =
+    1e-5;  // step in units of the parameters; equilibria are exact to about 1e-8
 
 /// All postures of one fit: predictions for any parameters, and residuals with unit covariance.
 class PostureProblem {

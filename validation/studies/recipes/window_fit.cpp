@@ -13,7 +13,7 @@
 namespace plumbline::validation {
 namespace {
 
-constexpr double kWindowSettled = 1e-8;                // relative change of the cost
+constexpr double kWindowSettled = 1e-8;          // relative change of the cost
 constexpr double kSettledThroughContact = 1e-6;  // less than the integrator's own error there would be noise
 
 IdentifiedValue finding_of(const LinkedParameter& linked, const FittedParameter& fitted) {
@@ -74,7 +74,8 @@ void set_deviations(const Eigen::MatrixXd& H, const Eigen::VectorXd& units,
 
 double settled(const Data& data) {
   const auto has_contact = [](const Trial& trial) { return !trial.switches.empty(); };
-  return std::any_of(data.trials.begin(), data.trials.end(), has_contact) ? kSettledThroughContact : kWindowSettled;
+  return std::any_of(data.trials.begin(), data.trials.end(), has_contact) ? kSettledThroughContact
+                                                                          : kWindowSettled;
 }
 
 struct Fitted {

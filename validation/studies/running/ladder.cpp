@@ -53,8 +53,8 @@ RungResult on_paper(const RunningLadder& ladder) {
   result.name = published.title;
   const monopod::Gait& gait = published.running.gait;
   std::vector<StrideFacts> facts;
-  const auto sections =
-      touchdowns(published.model, gait, gait.section, static_cast<int>(ladder.cycles) + 1, kIntegrationStep, &facts);
+  const auto sections = touchdowns(published.model, gait, gait.section, static_cast<int>(ladder.cycles) + 1,
+                                   kIntegrationStep, &facts);
   result.steps = static_cast<long>(sections.size()) - 1;
   result.fell = result.steps < ladder.cycles;
   result.end = result.fell ? "fell" : "";

@@ -224,7 +224,8 @@ class Runner {
     start.segment<3>(3).array() += p_.recovery.rate;
     start[6] += p_.recovery.forward;
     start[7] += p_.recovery.rise;
-    pushed_ = touchdowns(p_.model, gait(), start, static_cast<int>(p_.recovery.travel.size()), kIntegrationStep);
+    pushed_ =
+        touchdowns(p_.model, gait(), start, static_cast<int>(p_.recovery.travel.size()), kIntegrationStep);
   }
 
   double measured(const std::string& measure) const {
