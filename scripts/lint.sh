@@ -49,17 +49,15 @@ if [[ ! -f $build/compile_commands.json ]]; then
   echo "lint: no build/compile_commands.json; run ./plumb build first" >&2
   exit 2
 fi
+database=$build/lint
+mkdir -p "$database"
+python3 "$root/scripts/lint_commands.py" "$build/compile_commands.json" "$database/compile_commands.json"
 sources=()
 for file in "${files[@]}"; do
-  if [[ $file == *.cpp ]] && grep -qF "\"file\": \"$file\"" "$build/compile_commands.json"; then
+  if [[ $file == *.cpp ]] && grep -qF "\"file\": \"$file\"" "$database/compile_commands.json"; then
     sources+=("$file")
   fi
 done
-
-# GCC's precompiled headers are no use to clang-tidy: the same commands without them.
-database=$build/lint
-mkdir -p "$database"
-sed -E 's/ -Winvalid-pch -include [^ ]+//' "$build/compile_commands.json" >"$database/compile_commands.json"
 
 # One file. A file that there is no time for is named, here and in the list of them.
 look_at() {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/mjcf_equality.h"
 #include "simulator/model/mjcf_inertia.h"
-#include "simulator/model/mjcf_loops.h"
 #include "simulator/model/mjcf_values.h"
 #include "simulator/model/moving_masses.h"
 #include "simulator/trace/error.h"
@@ -48,7 +48,7 @@ class MjcfReader : private MjcfValues {
     }
     refuse_massless();
     check_joint_names(skeleton_);
-    read_mjcf_loops(source_, skeleton_);
+    read_mjcf_equalities(source_, skeleton_);
     name_what_is_left_out();
     return std::move(skeleton_);
   }
@@ -312,7 +312,7 @@ class MjcfReader : private MjcfValues {
       for (const XMLElement* section : source_.sections(part.name)) {
         for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
              one = one->NextSiblingElement()) {
-          count += is_mjcf_loop(*one) ? 0 : 1;
+          count += is_mjcf_equality(*one) ? 0 : 1;
         }
       }
       if (count > 0) {

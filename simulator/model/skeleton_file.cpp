@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "simulator/model/joint_chain.h"
+#include "simulator/model/joint_ties.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/moving_masses.h"
 #include "simulator/model/robot_file.h"
@@ -301,29 +302,19 @@ LooseJoint read_joint(const sdf::Joint& joint, const SkeletonXml& xml) {
   return loose;
 }
 
-/// A joint that mimics another one gets its zero where the offset puts it, so that a factor is left.
-void tie_mimics(const SkeletonXml& xml, Skeleton& skeleton) {
-  for (Joint& joint : skeleton.joints) {
-    const SkeletonXml::Mimic* mimic = xml.mimic(joint.name);
-    if (mimic == nullptr || joint.type == JointType::fixed) {
-      continue;
+/// What a URDF's joints mimic.
+std::vector<JointTie> mimics_of(const SkeletonXml& xml, const Skeleton& skeleton) {
+  std::vector<JointTie> ties;
+  for (const Joint& joint : skeleton.joints) {
+    if (const SkeletonXml::Mimic* mimic = xml.mimic(joint.name)) {
+      ties.push_back({joint.name,
+                      mimic->joint,
+                      mimic->multiplier,
+                      mimic->offset,
+                      {xml.file(), xml.line_of_joint(joint.name), joint.name + " mimic"}});
     }
-    const auto master = std::find_if(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& one) {
-      return one.name == mimic->joint && one.type != JointType::fixed && xml.mimic(one.name) == nullptr;
-    });
-    if (master == skeleton.joints.end()) {
-      xml.refuse({joint.name + " mimic", xml.line_of_joint(joint.name)}, "\"" + mimic->joint + "\"",
-                 "the name of a moving joint that mimics none");
-    }
-    const Eigen::Vector3d axis = joint.axis.normalized();
-    if (joint.type == JointType::revolute) {
-      joint.X_PJ.rotate(Eigen::AngleAxisd(mimic->offset, axis));
-    } else {
-      joint.X_PJ.translate(mimic->offset * axis);
-    }
-    joint.mimics = mimic->joint;
-    joint.follows = mimic->multiplier;
   }
+  return ties;
 }
 
 Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
@@ -345,7 +336,7 @@ Skeleton read_loaded(const LoadedSdf& loaded, const SkeletonXml& xml) {
     skeleton.gravity = to_eigen(loaded.world->Gravity());
   }
   TreeBuilder(xml, std::move(links), std::move(joints), to_eigen(pose)).build(skeleton);
-  tie_mimics(xml, skeleton);
+  tie_joints(mimics_of(xml, skeleton), skeleton);
   check_joint_names(skeleton);
   return skeleton;
 }

@@ -81,6 +81,26 @@ TEST_F(NewModel, TakesAGripperThatTheLogDoesNotShow) {
   succeed({"compare", "log_train", "log_held_out"});
 }
 
+// No joint leads to the root link: it is fixed to the world, or floats when that is asked for.
+TEST_F(NewModel, LetsARootLinkFloat) {
+  std::string arm = read("arm.urdf");
+  arm.replace(arm.find("<link name=\"base\"/>"), 19,
+              "<link name=\"base\"><inertial><mass value=\"4\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" "
+              "ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>");
+  write("floating.urdf", arm);
+  succeed({"new-model", "floating.urdf", "--floating-base", "--out", "model.yaml"});
+  EXPECT_THAT(read("model.yaml"), HasSubstr("floating_base: true"));
+  EXPECT_THAT(read("model.yaml"), HasSubstr("base_x"));
+  EXPECT_THAT(succeed({"check", "model.yaml"}).out, HasSubstr("base_roll"));
+  arm.insert(arm.find("<link"),
+             "<link name=\"world\"/><joint name=\"rail\" type=\"prismatic\"><parent link=\"world\"/><child "
+             "link=\"base\"/><limit effort=\"9\" velocity=\"9\"/></joint>");
+  write("hung.urdf", arm);
+  const auto refused = plumbline({"new-model", "hung.urdf", "--floating-base", "--out", "hung.yaml"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("one root link that no joint leads to"));
+}
+
 // A hip with a geared motor, a knee with a servo, an ankle that nothing drives.
 TEST_F(NewModel, TakesTheActuatorsAndTheNoiseOfAnMjcfFile) {
   write(

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "simulator/model/body_poses.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/positions_from.h"
@@ -116,7 +117,7 @@ constexpr const char* kMjcf = R"(<mujoco><worldbody>
   <body name="shin" pos="0.36 0 0.12"><joint name="knee" axis="0 1 0"/>
     <inertial pos="0 0 -0.15" mass="0.6" diaginertia="6e-3 6e-3 2e-4"/></body>
   </worldbody>
-  <equality>LOOP<joint joint1="hip" joint2="knee" active="false"/></equality></mujoco>)";
+  <equality>LOOP<joint joint1="hip" joint2="knee" active="false"/><tendon tendon1="t"/></equality></mujoco>)";
 
 // In the file's pose the coupler's end lies on the shin, 120 mm below the knee.
 TEST_F(LoopFiles, MjcfConnectTakesTheSecondPointFromTheFilesPose) {
@@ -154,6 +155,38 @@ TEST_F(LoopFiles, MjcfRefusesWhatIsNoLoopOfBodies) {
   EXPECT_THAT(message(R"(<connect body1="coupler" body2="shim" anchor="0 0 0"/>)"),
               HasSubstr("did you mean shin?"));
   EXPECT_THAT(message(R"(<connect body1="coupler" body2="shin"/>)"), HasSubstr("no anchor"));
+  EXPECT_THAT(message(R"(<joint joint1="ancle" joint2="knee"/>)"), HasSubstr("did you mean ankle?"));
+  EXPECT_THAT(message(R"(<joint joint1="ankle" joint2="knee" polycoef="0 1 0.5 0 0"/>)"),
+              HasSubstr("a line: two coefficients"));
+}
+
+// q_coupled - ref_coupled = 0.1 - 2 (q_knee - ref_knee): turns from the file's pose, by hand.
+TEST_F(LoopFiles, MjcfTiesAJointToAnotherByALine) {
+  std::string text =
+      changed(kMjcf, "LOOP", R"(<joint joint1="ankle" joint2="knee" polycoef="0.1 -2 0 0 0"/>)");
+  text = changed(text, "<mujoco>", "<mujoco><compiler angle=\"radian\"/>");
+  text = changed(text, "name=\"ankle\"", "name=\"ankle\" ref=\"0.3\"");
+  text = changed(text, "name=\"knee\"", "name=\"knee\" ref=\"-0.2\"");
+  const Skeleton skeleton = read_skeleton(folder_.write("a.xml", text));
+  const Joint& ankle = skeleton.joints[1];
+  EXPECT_EQ(ankle.mimics, "knee");
+  EXPECT_EQ(ankle.follows, -2.0);
+  const double knee = 0.5;  // 0.7 from the file's pose
+  const auto poses = body_poses(skeleton, Eigen::Vector3d(0.0, ankle.follows * knee, knee));
+  const double turned = 0.1 - 2.0 * 0.7;
+  EXPECT_TRUE(poses[1].linear().isApprox(
+      Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitY()).toRotationMatrix(), 1e-12));
+  EXPECT_TRUE(
+      poses[2].linear().isApprox(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()).toRotationMatrix(), 1e-12));
+}
+
+TEST_F(LoopFiles, MjcfHoldsAJointThatNoOtherGives) {
+  const std::string text = changed(kMjcf, "LOOP", R"(<joint joint1="ankle" polycoef="0.25 0 0 0 0"/>)");
+  const Skeleton skeleton = read_skeleton(folder_.write("a.xml", text));
+  EXPECT_EQ(skeleton.joints[1].type, JointType::fixed);
+  const auto poses = body_poses(skeleton, Eigen::Vector2d::Zero());
+  EXPECT_TRUE(poses[1].linear().isApprox(Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitY()).toRotationMatrix(),
+                                         1e-12));
 }
 
 // The same leg with the pin as a joint of the skeleton.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "simulator/model/joint_chain.h"
 #include "simulator/model/known_effects.h"
 #include "simulator/model/mjcf_file.h"
 #include "simulator/model/robot_file.h"
@@ -270,13 +271,22 @@ void describe(const Plan& plan, NewModel& result) {
 
 NewModel new_model(const NewModelWish& wish) {
   refuse_existing(wish.file);
-  const model::Skeleton skeleton = model::read_skeleton(wish.skeleton);
+  model::Skeleton skeleton = model::read_skeleton(wish.skeleton);
+  if (wish.floating_base && !model::free_base(skeleton)) {
+    throw InputError({wish.skeleton, 0, "--floating-base"},
+                     "joints that hang it on the world, or several root links",
+                     "one root link that no joint leads to");
+  }
   std::optional<LogLook> look;
   if (!wish.log.empty()) {
     look = look_at_log(wish.log, wish.topics);
   }
-  Plan plan{&skeleton, relative_to(folder_of(wish.file), wish.skeleton), "", look ? &*look : nullptr,
-            plan_joints(skeleton)};
+  Plan plan{&skeleton,
+            relative_to(folder_of(wish.file), wish.skeleton),
+            "",
+            look ? &*look : nullptr,
+            plan_joints(skeleton),
+            wish.floating_base};
   const model::MjcfDrives drives =
       model::is_mjcf(wish.skeleton) ? model::read_mjcf_drives(wish.skeleton) : model::MjcfDrives{};
   add_drives(drives, plan.joints);

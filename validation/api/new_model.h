@@ -13,6 +13,7 @@ struct NewModelWish {
   std::vector<std::string> topics;  ///< of a bag: see LogQuestion
   std::string file;                 ///< model.yaml; must not exist
   std::string command_unit;         ///< "A" or "N m"; empty: that of the log's commands, else N m
+  bool floating_base = false;       ///< the root link, to which no joint leads, floats
 };
 
 /// One joint of the new model, and its columns in the log (empty: none matched).
@@ -36,7 +37,7 @@ struct NewModel {
 /// LOG_held_out (the rest). The model is read back before it gets its name. For motors commanded by a current
 /// the torque constant is assumed to be 1 N m/A; where the train trial shows by what factor the needed force
 /// follows the current (command_gains), that factor is assumed. Throws InputError, and leaves nothing behind,
-/// when the skeleton cannot be read or has no moving joint, a file of that name exists, or the log has no
+/// when the skeleton cannot be read, has no moving joint, or no root that could float as asked, a file of that name exists, or the log has no
 /// time or no column of any joint.
 NewModel new_model(const NewModelWish& wish);
 

@@ -134,6 +134,9 @@ class ModelWriter {
             "plumbline: model/1\n"
          << "robot: " << quoted(std::filesystem::path(file_).stem().string()) << "\n"
          << "skeleton: " << quoted(plan_.skeleton_path) << "\n";
+    if (plan_.floating_base) {
+      out_ << "floating_base: true  # no joint of the skeleton leads to its root link\n";
+    }
     for (const std::string& sentence : plan_.skeleton->left_out) {
       if (is_taken_by_new_model(sentence)) {
         continue;

@@ -37,6 +37,7 @@ struct Plan {
   std::string command_unit;                   ///< "A" or "N m"
   const validation::LogLook* look = nullptr;  ///< nullptr: no log
   std::vector<PlannedJoint> joints;
+  bool floating_base = false;  ///< by the wish, not by the skeleton
 
   /// The file or a command in the log says that a joint is driven. Where neither says it of this joint, it is
   /// driven only if they say it of none: then nothing is known. A joint that the log does not show is no

@@ -95,6 +95,8 @@ void add_new_model(CLI::App& app, Outcome& /*outcome*/) {
       ->add_option("--command-unit", options->wish.command_unit,
                    "what motors are commanded by: A or \"N m\"; left out, what the log states")
       ->check(CLI::IsMember({"A", "N m"}));
+  command->add_flag("--floating-base", options->wish.floating_base,
+                    "the root link floats: for a URDF or SDFormat file in which no joint leads to it");
   add_json_option(*command, options->json);
   command->footer("Example:\n  plumbline new-model arm.urdf --from swing.csv -o model.yaml --command-unit A");
   command->callback([options] { run(*options); });

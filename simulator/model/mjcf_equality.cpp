@@ -1,9 +1,10 @@
-#include "simulator/model/mjcf_loops.h"
+#include "simulator/model/mjcf_equality.h"
 
 #include <algorithm>
 #include <vector>
 
 #include "simulator/model/body_poses.h"
+#include "simulator/model/joint_ties.h"
 #include "simulator/model/mjcf_values.h"
 #include "simulator/trace/error.h"
 
@@ -13,6 +14,11 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
+
+bool is_active(const XMLElement& element, const MjcfDefaults& defaults) {
+  const char* active = defaults.attribute(element, "active", "");
+  return active == nullptr || std::string(active) != "false";
+}
 
 class MjcfLoops : private MjcfValues {
  public:
@@ -28,8 +34,7 @@ class MjcfLoops : private MjcfValues {
   }
 
   void read(const XMLElement& element) {
-    const char* active = defaults_.attribute(element, "active", "");
-    if (active != nullptr && std::string(active) == "false") {
+    if (!is_active(element, defaults_)) {
       return;
     }
     const char* name = element.Attribute("name");
@@ -133,23 +138,72 @@ class MjcfLoops : private MjcfValues {
   std::vector<Isometry3d> poses_;
 };
 
+class MjcfTies : private MjcfValues {
+ public:
+  MjcfTies(const MjcfDocument& document, const Skeleton& skeleton)
+      : MjcfValues(document), skeleton_(skeleton) {}
+
+  const std::vector<JointTie>& all() const { return ties_; }
+
+  void read(const XMLElement& element) {
+    if (!is_active(element, defaults_)) {
+      return;
+    }
+    const Joint& joint = joint_of(element, "joint1");
+    const Joint* to = element.Attribute("joint2") != nullptr ? &joint_of(element, "joint2") : nullptr;
+    const char* text = defaults_.attribute(element, "polycoef", "");
+    std::vector<double> a = numbers(element, text != nullptr ? text : "0 1 0 0 0", "polycoef");
+    a.resize(std::max<std::size_t>(a.size(), 2), 0.0);
+    if (to != nullptr && std::any_of(a.begin() + 2, a.end(), [](double value) { return value != 0.0; })) {
+      refuse(element, "polycoef=\"" + std::string(text) + "\"", "a line: two coefficients, the others 0");
+    }
+    const double zero = to != nullptr ? a[0] - a[1] * to->reference : a[0];
+    ties_.push_back(
+        {joint.name, to != nullptr ? to->name : "", a[1], joint.reference + zero, source_.place(element)});
+  }
+
+ private:
+  const Joint& joint_of(const XMLElement& element, const char* which) const {
+    const char* name = element.Attribute(which);
+    std::vector<std::string> names;
+    for (const Joint& joint : skeleton_.joints) {
+      if (joint.type == JointType::fixed) {
+        continue;
+      }
+      if (name != nullptr && joint.name == name) {
+        return joint;
+      }
+      names.push_back(joint.name);
+    }
+    refuse(element, name == nullptr ? std::string("no ") + which : which + ("=\"" + std::string(name)) + "\"",
+           "the name of a hinge or slide" + (name == nullptr ? "" : nearest_names(name, names)));
+  }
+
+  const Skeleton& skeleton_;
+  std::vector<JointTie> ties_;
+};
+
 }  // namespace
 
-bool is_mjcf_loop(const XMLElement& element) {
+bool is_mjcf_equality(const XMLElement& element) {
   const std::string kind = element.Name();
-  return kind == "connect" || kind == "weld";
+  return kind == "connect" || kind == "weld" || kind == "joint";
 }
 
-void read_mjcf_loops(const MjcfDocument& document, Skeleton& skeleton) {
+void read_mjcf_equalities(const MjcfDocument& document, Skeleton& skeleton) {
   MjcfLoops loops(document, skeleton);
+  MjcfTies ties(document, skeleton);
   for (const XMLElement* section : document.sections("equality")) {
     for (const XMLElement* one = section->FirstChildElement(); one != nullptr;
          one = one->NextSiblingElement()) {
-      if (is_mjcf_loop(*one)) {
+      if (std::string(one->Name()) == "joint") {
+        ties.read(*one);
+      } else if (is_mjcf_equality(*one)) {
         loops.read(*one);
       }
     }
   }
+  tie_joints(ties.all(), skeleton);
 }
 
 }  // namespace plumbline::model
