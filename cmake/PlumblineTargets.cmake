@@ -59,15 +59,20 @@ function(plumbline_library_options target)
 endfunction()
 
 # plumbline_library(NAME SOURCES a.cpp ... LIBS x y [APART b.cpp ...]): a static library plumbline_NAME, includes from the
-# root. APART: sources that are compiled alone, whatever PLUMBLINE_UNITY says, with the reason beside them.
+# root. APART: sources that are compiled alone, whatever PLUMBLINE_UNITY says, with the reason beside them; EACH_APART: all of them. PRECOMPILED:
+# headers of its own in place of what all libraries share.
 function(plumbline_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;PRIVATE_LIBS;APART" ${ARGN})
+  cmake_parse_arguments(ARG "EACH_APART" "" "SOURCES;LIBS;PRIVATE_LIBS;APART;PRECOMPILED" ${ARGN})
   add_library(plumbline_${name} STATIC ${ARG_SOURCES} ${ARG_APART})
   target_include_directories(plumbline_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
   target_link_libraries(plumbline_${name} PUBLIC ${ARG_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
   plumbline_library_options(plumbline_${name})
-  target_precompile_headers(plumbline_${name} REUSE_FROM precompiled_libraries)
-  if(PLUMBLINE_UNITY)
+  if(ARG_PRECOMPILED)
+    target_precompile_headers(plumbline_${name} PRIVATE ${ARG_PRECOMPILED})
+  else()
+    target_precompile_headers(plumbline_${name} REUSE_FROM precompiled_libraries)
+  endif()
+  if(PLUMBLINE_UNITY AND NOT ARG_EACH_APART)
     set_target_properties(plumbline_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()

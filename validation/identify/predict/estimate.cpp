@@ -334,11 +334,11 @@ Eigen::VectorXd event_counts(const Data& data, std::size_t t) {
 
 /// Mean squares of a trial's channels, added up, and how many channels that were. A contact switch has one
 /// residual for each event.
-struct Sum {
+struct SumOfSquares {
   double of_means = 0.0, channels = 0.0;
 };
 
-Sum sum_of(const Data& data, std::size_t t, const std::vector<Eigen::VectorXd>& square) {
+SumOfSquares sum_of(const Data& data, std::size_t t, const std::vector<Eigen::VectorXd>& square) {
   Eigen::VectorXd total;
   double samples = 0.0;
   for (std::size_t w = 0; w < data.windows.size(); ++w) {
@@ -352,7 +352,7 @@ Sum sum_of(const Data& data, std::size_t t, const std::vector<Eigen::VectorXd>& 
   }
   const Eigen::VectorXd events = event_counts(data, t);
   const Eigen::Index sampled = total.size() - events.size();
-  Sum sum{total.head(sampled).sum() / std::max(samples, 1.0), static_cast<double>(sampled)};
+  SumOfSquares sum{total.head(sampled).sum() / std::max(samples, 1.0), static_cast<double>(sampled)};
   for (Eigen::Index c = 0; c < events.size(); ++c) {
     if (events[c] > 0.0) {
       sum.of_means += total[sampled + c] / events[c];
@@ -387,7 +387,7 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
     double count = 0.0;
     for (std::size_t t = 0; t < data.trials.size(); ++t) {
       if (data.trials[t].role == role) {
-        const Sum one = sum_of(data, t, square);
+        const SumOfSquares one = sum_of(data, t, square);
         sum += one.of_means;
         count += one.channels;
       }
