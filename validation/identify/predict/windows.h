@@ -160,6 +160,11 @@ class Predictor {
     double rate = 0.0;       // of the depth, m/s
   };
 
+  /// Nodes between which deviations are carried in one step.
+  struct Piece {
+    Eigen::Index from = 0, to = 0;
+  };
+
   /// A node at which a switching function went through zero and a force jumped.
   struct JumpNode {
     Eigen::Index node = 0;
@@ -206,10 +211,6 @@ class Predictor {
   Linearisation linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
                                          const std::vector<FreeParameter>& parameters);
   void refresh_commands();
-  /// Nodes between which deviations are carried in one step.
-  struct Piece {
-    Eigen::Index from = 0, to = 0;
-  };
   std::vector<Piece> pieces_of(Eigen::Index sample, const std::vector<Crossing>& crossings);
   bool is_even(Eigen::Index from, Eigen::Index to, const std::vector<Crossing>& crossings);
   void tangent_at(const Window& window, Eigen::Index k, const Piece& piece,
