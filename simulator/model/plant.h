@@ -13,6 +13,7 @@
 #include "simulator/model/loop_closure.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
+#include "simulator/model/tree_slopes.h"
 
 namespace plumbline::model {
 
@@ -305,7 +306,8 @@ class Plant {
     ParameterId id;
     double step = 0.0;
     Structure structure;
-    Eigen::MatrixXd dM;
+    std::vector<int> heavier;  // bodies of the tree whose mass, centre of mass or inertia is another
+    Eigen::MatrixXd dM;        // by differences, only where gravity is another
     Eigen::VectorXd dh;
   };
 
@@ -340,6 +342,7 @@ class Plant {
   void place_point_sensor(int sensor);
   void point_outputs(const double* x, const double* command, double* y);
   void point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C);
+  void feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C);
   Eigen::VectorXd accelerations_at(const double* x, const double* command);
   void read_points(const double* x, const Eigen::VectorXd& acceleration, Eigen::VectorXd& readings);
   void tilt_tangent(const double* x, const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps,
@@ -372,7 +375,7 @@ class Plant {
   std::string coordinate_name(int full) const;
   void add_forces(const double* x, Eigen::VectorXd& Q, double* xdot);
   double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
-  void rigid_tangent(const double* x, const double* command);
+  void rigid_tangent();
   void effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
   void force_tangent(const ForceSlot& slot, const double* x, const double* change,
                      Eigen::Ref<Eigen::MatrixXd> A);
@@ -388,6 +391,7 @@ class Plant {
   Variant& variant_of(ParameterId id, double step);
   void structure_tangent(const double* x, ParameterId id, double step, bool refresh,
                          Eigen::Ref<Eigen::VectorXd> column);
+  void gravity_tangent(const double* x, Variant& variant, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
   void base_tangent(const SampleMotion& sample, ParameterId id, double step,
                     Eigen::Ref<Eigen::VectorXd> column);
   bool sits_at_base(int effect) const;
@@ -424,6 +428,7 @@ class Plant {
   Eigen::VectorXd known_;  // positions and velocities that q_, v_, M_, h_ and the tree's kinematics belong to
   bool rigid_known_ = false, factored_ = false;
   Eigen::MatrixXd rigid_A_;
+  TreeSlopes tree_slopes_;
   Eigen::MatrixXd slopes_;  // d(generalised force)/dx
   Eigen::MatrixXd foot_J_;
   Eigen::RowVectorXd foot_yaw_;

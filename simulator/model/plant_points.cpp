@@ -7,10 +7,10 @@
 namespace plumbline::model {
 namespace {
 
-/// Central differences of the velocities' own part: smooth, of the size of the positions and speeds.
-constexpr double kStep = 1e-5;
-
-using Vector = Eigen::Map<const Eigen::VectorXd>;
+/// Does the reading change with positions in a way that point_rows() does not tell?
+bool is_felt(PointReading reading) {
+  return reading == PointReading::gyroscope || reading == PointReading::accelerometer;
+}
 
 }  // namespace
 
@@ -83,30 +83,36 @@ void Plant::point_jacobian(const double* x, const double* command, Eigen::Matrix
           point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
     }
   }
-  const bool accelerometers = model_.has(PointReading::accelerometer);
-  if (!accelerometers && !model_.has(PointReading::gyroscope)) {
-    return;
+  if (model_.has(PointReading::accelerometer) || model_.has(PointReading::gyroscope)) {
+    feel_points(accelerations_at(x, command), C);
   }
-  const Eigen::VectorXd acceleration = accelerations_at(x, command);
-  Eigen::VectorXd moved = Vector(x, nx_);
-  Eigen::VectorXd up(static_cast<Eigen::Index>(points_.size())), down = up;
-  for (int i = 0; i < (accelerometers ? 2 : 1) * nz_; ++i) {
-    moved[i] = x[i] + kStep;
-    read_points(moved.data(), acceleration, up);
-    moved[i] = x[i] - kStep;
-    read_points(moved.data(), acceleration, down);
-    moved[i] = x[i];
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-      const Sensor& sensor = model_.sensors[static_cast<std::size_t>(points_[p].sensor)];
-      const auto row = static_cast<Eigen::Index>(p);
-      const bool own = sensor.reading == PointReading::accelerometer ||
-                       (sensor.reading == PointReading::gyroscope && i < nz_);
-      if (own) {
-        C(points_[p].sensor, i) = (up[row] - down[row]) / (2.0 * kStep);
-      }
+}
+
+// Where rate() or rigid_at() has left the tree.
+void Plant::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
+  if (acceleration.size() == 0) {
+    acceleration.setZero(n_tree_);  // gyroscopes do not ask for it
+  }
+  tree_slopes_.set(tree(), acceleration);
+  TreeSlopes::Felt felt;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointSlot& slot = points_[i];
+    const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
+    if (!is_felt(sensor.reading)) {
+      continue;
+    }
+    if (i == 0 || sensor.axis == 0) {
+      tree_slopes_.felt_at(slot.body, tree().station(slot.body, sensor.point), felt);
+    }
+    const Eigen::RowVector3d along =
+        (tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).transpose();
+    if (sensor.reading == PointReading::gyroscope) {
+      C.row(slot.sensor).head(nz_) = along * felt.turn_by_position * S_tree_;
+    } else {
+      C.row(slot.sensor).head(nz_) = along * felt.pull_by_position * S_tree_;
+      C.row(slot.sensor).tail(nz_) = along * felt.pull_by_velocity * S_tree_;
     }
   }
-  rigid_at(x);
 }
 
 // An accelerometer feels where gravity points, beside what that does to the motion.

@@ -12,8 +12,6 @@
 namespace plumbline::model {
 namespace {
 
-constexpr double kPositionStep = 1e-6;  // rad or m: the rigid terms vary over radians
-constexpr double kVelocityStep = 1e-4;
 constexpr int kPartsOfTurn = 6;  // of a sample in which a place turns round
 
 /// Is any of these slots' laws, with the parameters that `values` gives, not at its null value?
@@ -37,29 +35,15 @@ Eigen::VectorXd slope_of_rate(const Rate& rate, const Move& move, int states, do
 
 }  // namespace
 
-// d(M^-1 (Q - h))/d(z, w) with effects and torques held: by differences, they cost one evaluation each.
-void Plant::rigid_tangent(const double* x, const double* command) {
-  rigid_A_ = Eigen::MatrixXd::Zero(nz_, 2 * nz_);
-  deliver_torques(x, command, nullptr);
-  factor_at(x);
-  Eigen::VectorXd Q = Eigen::VectorXd::Zero(nz_);
-  add_forces(x, Q, nullptr);
-  Eigen::VectorXd a0;
-  accelerate(Q - h_, a0);
-  if (has_loops()) {
-    loop_tangent(x, Q, a0);
-    return;
-  }
-  Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
-  Eigen::MatrixXd M;
-  Eigen::VectorXd h;
-  for (int i = 0; i < 2 * nz_; ++i) {
-    const double step = i < nz_ ? kPositionStep : kVelocityStep;
-    moved[i] = x[i] + step;
-    evaluate_rigid(moved.data(), structure_, M, h);
-    rigid_A_.col(i) = factor_.solve(h_ - h - (M - M_) * a0) / step;
-    moved[i] = x[i];
-  }
+// d(M^-1 (Q - h))/d(z, w) with effects and torques held: -M^-1 d(M a + h)/d(z, w) at the x and the
+// acceleration a that tree_slopes_ was set for. What rotors and pulleys add to M is constant.
+void Plant::rigid_tangent() {
+  Eigen::MatrixXd by_position;
+  Eigen::MatrixXd by_velocity;
+  tree_slopes_.inverse_dynamics(by_position, by_velocity);
+  rigid_A_.leftCols(nz_).noalias() = -S_tree_.transpose() * by_position * S_tree_;
+  rigid_A_.rightCols(nz_).noalias() = -S_tree_.transpose() * by_velocity * S_tree_;
+  factor_.solveInPlace(rigid_A_);
 }
 
 // Half of what a place's position and velocity change by over a sample.
@@ -209,58 +193,6 @@ void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Ei
   A.block(0, nz_, nz_, nz_).setIdentity();
   effect_tangent(x, nullptr, A);
   actuator_tangent(x, command, A);
-}
-
-Plant::Variant& Plant::variant_of(ParameterId id, double step) {
-  const auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
-    return variant.id.effect == id.effect && variant.id.parameter == id.parameter;
-  });
-  if (found != variants_.end()) {
-    return *found;
-  }
-  double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
-  const double here = stored;
-  Variant variant;
-  variant.id = id;
-  variant.step = step;
-  stored = here + step;
-  variant.structure = make_structure();
-  stored = here;
-  variants_.push_back(std::move(variant));
-  return variants_.back();
-}
-
-void Plant::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
-                              Eigen::Ref<Eigen::VectorXd> column) {
-  Variant& variant = variant_of(id, step);
-  if (refresh || variant.dM.size() == 0) {
-    Eigen::MatrixXd M;
-    Eigen::VectorXd h;
-    evaluate_rigid(x, variant.structure, M, h);
-    variant.dM = (M - M_) / variant.step;
-    variant.dh = (h - h_) / variant.step;
-  }
-  column.segment(nz_, nz_) = -accelerated(variant.dM * acceleration_ + variant.dh);
-}
-
-bool Plant::sits_at_base(int effect) const {
-  return model_.effects[static_cast<std::size_t>(effect)].law->sits_at(effects::Place::base);
-}
-
-// The ways of the base carry the feet: the whole rate changes, not the rigid bodies' part alone.
-void Plant::base_tangent(const SampleMotion& sample, ParameterId id, double step,
-                         Eigen::Ref<Eigen::VectorXd> column) {
-  Variant& variant = variant_of(id, step);
-  const auto rate_here = [&]() {
-    rigid_known_ = false;
-    Eigen::VectorXd xdot = Eigen::VectorXd::Zero(nx_);
-    rate(sample.middle, sample.command, xdot.data());
-    return xdot;
-  };
-  std::swap(structure_, variant.structure);
-  const Eigen::VectorXd there = rate_here();
-  std::swap(structure_, variant.structure);
-  column = (there - rate_here()) / variant.step;
 }
 
 // A force that turns with the velocity's sign within the sample is averaged over it. To move the rest that a
@@ -423,11 +355,18 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
 void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,
                     const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
   const double* x = sample.middle;
-  if (refresh || rigid_A_.cols() != 2 * nz_) {
-    rigid_tangent(x, sample.command);
-  }
+  const bool is_due = refresh || rigid_A_.cols() != 2 * nz_;
+  rigid_A_.resize(nz_, 2 * nz_);
   Eigen::VectorXd xdot(nx_);
+  if (is_due && has_loops()) {
+    rate(x, sample.command, xdot.data());
+    loop_tangent(x, Q_ + h_, Eigen::VectorXd(acceleration_));
+  }
   rate(x, sample.command, xdot.data());  // leaves M, h, torques and acceleration at x
+  tree_slopes_.set(tree(), S_tree_ * acceleration_);
+  if (is_due && !has_loops()) {
+    rigid_tangent();
+  }
   A.setZero(nx_, nx_);
   A.block(0, nz_, nz_, nz_).setIdentity();
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;

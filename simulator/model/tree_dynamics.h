@@ -33,6 +33,7 @@ class TreeDynamics {
   TreeDynamics(std::vector<TreeBody> bodies, int coordinates, const Eigen::Vector3d& gravity);
 
   const std::vector<TreeBody>& bodies() const { return bodies_; }
+  int coordinates() const { return size_; }
 
   /// Poses of all bodies at the joints' positions q.
   void place(const Eigen::VectorXd& q);
@@ -51,6 +52,15 @@ class TreeDynamics {
   /// d(station_velocity)/dv and d(angular_velocity)/dv, 3 x coordinates.
   Eigen::Matrix3Xd station_jacobian(int body, const Eigen::Vector3d& p_W) const;
   Eigen::Matrix3Xd turn_jacobian(int body) const;
+  /// The joint's screw, the body's velocity, and its acceleration at dv/dt = 0: spatial vectors [angular;
+  /// linear at the world's origin] in the world's axes.
+  const Eigen::Matrix<double, 6, 1>& axis(int body) const { return axis_[static_cast<std::size_t>(body)]; }
+  const Eigen::Matrix<double, 6, 1>& velocity(int body) const {
+    return velocity_[static_cast<std::size_t>(body)];
+  }
+  const Eigen::Matrix<double, 6, 1>& bias(int body) const {
+    return acceleration_[static_cast<std::size_t>(body)];
+  }
   /// In the world, m/s^2.
   const Eigen::Vector3d& gravity() const { return gravity_; }
   /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.

@@ -39,6 +39,18 @@ TEST_F(Add, TakesTheModelAndTheScaleOfTheMotionFromATrial) {
   EXPECT_LT(speed, 3.0);
 }
 
+// It began with five times the link's mass, under which no legged robot stands.
+TEST_F(Add, ALoadStartsAtAShareOfWhatCarriesIt) {
+  succeed({"add", "payload", "--at", "arm", "--model", "robot/model.yaml", "--out", "new.yaml"});
+  const double mass = effect_of("new.yaml")["values"]["mass"]["value"];
+  double carrier = 0.0;
+  for (const json& body : read_json("model.json")["bodies"]) {
+    carrier = body["name"] == "arm" ? body["mass"].get<double>() : carrier;
+  }
+  EXPECT_GT(mass, 0.0);
+  EXPECT_LT(mass, carrier);
+}
+
 TEST_F(Add, AReleasedRatioStartsAtAStiffnessThatFitCanMove) {
   succeed({"add", "cable_stretch", "--at", "shoulder", "--model", "robot/model.yaml", "--out", "new.yaml"});
   const json values = effect_of("new.yaml")["values"];

@@ -95,6 +95,14 @@ TEST(Summary, SaysWhichWindowsEndEarly) {
   EXPECT_THAT(summary(diagnosis), HasSubstr("2 of 14 windows are not followed to their end"));
 }
 
+TEST(Summary, SaysHowManyWindowsALimitLeft) {
+  Diagnosis diagnosis = found({"coulomb"}, Verdict::missing, 12.5, 1.01);
+  diagnosis.all_windows = 60;
+  EXPECT_THAT(summary(diagnosis), Not(HasSubstr("were used")));
+  diagnosis.unused_windows = 36;
+  EXPECT_THAT(summary(diagnosis), HasSubstr("Of 60 windows 24 were used, spread evenly over the trials"));
+}
+
 TEST(Summary, SaysWhatTheTrainTrialsLeaveOpen) {
   Diagnosis diagnosis = found({"com_shift"}, Verdict::missing, 12.5, 1.02);
   Scores& at_best_values = diagnosis.ladder[1].stage.estimate.scores;

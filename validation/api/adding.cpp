@@ -57,7 +57,9 @@ model::EffectUse added_effect(const Addition& addition, const model::Model& mode
   }
   model::EffectUse use = validation::parse_effect(text, model, model::known_effects());
   const std::vector<effects::Values> starts = use.law->starts(scales_for(model, use, trial));
-  const effects::Values& start = starts[starts.size() / 2];
+  // Of two in the middle the first: starts go from what changes little to what changes much, and under too
+  // much a model no longer moves as the trials do, so that no fit begins (a quadruped under five trunks).
+  const effects::Values& start = starts[(starts.size() - 1) / 2];
   for (std::size_t p = 0; p < use.values.size(); ++p) {
     const effects::Parameter& parameter = use.law->declaration().parameters[p];
     if (!is_set(addition, parameter.name)) {

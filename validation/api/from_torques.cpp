@@ -105,14 +105,30 @@ void take_values(const Diagnosis& further, Finding& finding) {
   }
 }
 
+/// Does a base float freely in some trial? Then the ground moves it, and no torque is recorded of that.
+bool floats_freely(const model::Model& model, const Data& data) {
+  const auto is_held = [](const validation::Trial& trial, const model::Joint& joint) {
+    return std::any_of(trial.locks.begin(), trial.locks.end(),
+                       [&](const model::Lock& lock) { return lock.at == joint.name; });
+  };
+  return std::any_of(data.trials.begin(), data.trials.end(), [&](const validation::Trial& trial) {
+    const auto& joints = model.skeleton.joints;
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](const model::Joint& joint) { return joint.floats && !is_held(trial, joint); });
+  });
+}
+
 }  // namespace
 
 std::optional<validation::StandardFit> torque_identification(const model::Model& model, const Data& data,
                                                              const Progress& progress) {
+  if (floats_freely(model, data)) {
+    return {};
+  }
   try {
     return validation::standard_fit(model, data, {}, progress);
   } catch (const InputError&) {
-    return {};  // hidden states, feet on the ground, a floating base, or positions that no sensor shows
+    return {};  // hidden states, feet on the ground, or positions that no sensor shows
   }
 }
 
@@ -126,7 +142,7 @@ FromTorques ask_torques(const model::Model& model, const effects::Catalogue& cat
   FromTorques answer;
   // One joint has little of what torques tell apart. And nearer the windows' own search is quicker: 7 s in
   // place of more than a minute at 40 floors.
-  if (model.motors.size() < 2) {
+  if (model.motors.size() < 2 || floats_freely(model, data)) {
     return answer;
   }
   if (!is_for_torques(validation::compare(model, data.thinned(policy.windows)).scores, policy)) {

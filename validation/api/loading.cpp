@@ -50,7 +50,11 @@ Loaded load(const Sources& sources, const validation::StopFlag* stop) {
   for (const std::string& path : sources.trials) {
     trials.push_back(validation::read_trial(path, model, options));
   }
-  return load(model, std::move(trials), sources.window, stop);
+  Loaded loaded = load(model, std::move(trials), sources.window, stop);
+  if (sources.most_windows > 0) {
+    loaded.data->limit(sources.most_windows);
+  }
+  return loaded;
 }
 
 std::vector<std::string> files_of(const Loaded& loaded) {

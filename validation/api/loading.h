@@ -18,6 +18,7 @@ struct Sources {
   std::string model;                ///< empty: the model that the first trial names
   std::string data_folder;          ///< replaces the trials' data folders; empty: as they say
   double window = 0.5;              ///< length of the prediction windows, s
+  std::size_t most_windows = 0;     ///< of each role, spread evenly over its trials; 0: all there are
 };
 
 struct Loaded {

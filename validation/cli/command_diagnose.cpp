@@ -260,6 +260,12 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("diagnose", "Which effect is missing, where, how sure");
   add_trial_inputs(*command, options->inputs);
+  command
+      ->add_option("--windows", options->inputs.most_windows,
+                   "use N windows at most of the train trials and of the held-out ones each, spread evenly "
+                   "over them; without it all")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command->add_option("--without", options->inputs.without, "effects to leave out of the catalogue")
       ->type_name("EFFECT");
   command->add_option("--save", options->save, "write the model with what was found as an overlay")

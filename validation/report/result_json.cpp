@@ -194,6 +194,7 @@ nlohmann::json to_json(const Diagnosis& diagnosis, const std::vector<Unexplained
   json["interrupted"] = diagnosis.interrupted;
   json["windows"] = diagnosis.windows;
   json["cut_windows"] = diagnosis.cut_windows;
+  json["unused_windows"] = diagnosis.unused_windows;
   json["test_before"] = test_or_null(diagnosis.test_before);
   json["test_after"] = test_or_null(diagnosis.test_after);
   for (const char* key :

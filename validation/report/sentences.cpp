@@ -211,6 +211,18 @@ std::string part_sentence(const Diagnosis& diagnosis) {
   return said;
 }
 
+/// How many windows the user's limit left; empty without one.
+std::string limit_sentence(const Diagnosis& diagnosis) {
+  if (diagnosis.unused_windows == 0) {
+    return "";
+  }
+  const std::size_t used = diagnosis.all_windows - diagnosis.unused_windows;
+  return fmt::format(
+      "Of {} windows {} were used, spread evenly over the trials; errors and shares are those of these "
+      "windows.",
+      diagnosis.all_windows, used);
+}
+
 /// The error on trials that neither fitted nor chose; empty where there are none.
 std::string test_sentence(const Diagnosis& diagnosis) {
   if (!(diagnosis.test_after > 0.0)) {
@@ -304,7 +316,7 @@ std::vector<std::string> remarks(const Diagnosis& diagnosis) {
   for (const std::string& one :
        {is_open ? one_place_sentence(*diagnosis.at_one_place) : "", test_sentence(diagnosis),
         withdrawn_sentence(diagnosis), open_values_sentence(diagnosis), part_sentence(diagnosis),
-        exact_sentence(diagnosis)}) {
+        limit_sentence(diagnosis), exact_sentence(diagnosis)}) {
     if (!one.empty()) {
       said.push_back(one);
     }

@@ -6,6 +6,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "simulator/trace/error.h"
 #include "validation/identify/compare/compare.h"
 #include "validation/identify/fit/fit.h"
 #include "validation/identify/twin/twin.h"
@@ -45,6 +46,31 @@ TEST(TestRole, StandsApartFromAllThatIsFittedOrChooses) {
   ASSERT_EQ(data.tests.size(), 1U);
   EXPECT_EQ(data.windows.size(), 2U);
   EXPECT_EQ(data.of_tests().windows.size(), 2U);
+}
+
+// A limit holds for each role by itself, tests included, and its windows are spread over the trials.
+TEST(TestRole, ALimitSpreadsTheWindowsOfEachRole) {
+  PredictOptions options;
+  options.window = 0.1;
+  Data data({recorded("multisine.yaml", Role::test), recorded("steps.yaml", Role::train),
+             recorded("steps.yaml", Role::train), recorded("multisine.yaml", Role::held_out)},
+            options);
+  ASSERT_EQ(data.windows.size(), 30U);
+  data.limit(4);
+  EXPECT_EQ(data.windows_of(Role::train).size(), 4U);
+  EXPECT_EQ(data.windows_of(Role::held_out).size(), 4U);
+  EXPECT_EQ(data.of_tests().windows.size(), 4U);
+  EXPECT_EQ(data.unused_windows, 22U);
+  std::vector<int> trials;
+  std::vector<Eigen::Index> firsts;
+  for (const int w : data.windows_of(Role::train)) {
+    trials.push_back(data.windows[static_cast<std::size_t>(w)].trial);
+    firsts.push_back(data.windows[static_cast<std::size_t>(w)].first);
+  }
+  EXPECT_EQ(trials, (std::vector<int>{0, 0, 1, 1}));
+  EXPECT_EQ(firsts[0], firsts[2]);
+  EXPECT_GT(firsts[1], firsts[0] + 300);
+  EXPECT_THROW(data.limit(0), InputError);
 }
 
 TEST(TestRole, IsComparedAsTheOthers) {

@@ -5,6 +5,7 @@
 
 #include "simulator/run/commanded_run.h"
 #include "validation/identify/closed_loop/controllers.h"
+#include "validation/identify/predict/tolerance.h"
 
 namespace plumbline::validation {
 namespace {
@@ -110,8 +111,9 @@ ClosedLoop closed_loop(const model::Model& model, const Trial& trial, const Pred
     return result;
   }
   Predictor predictor(model, trial, options);
+  const double tolerance = options.relative_tolerance > 0.0 ? options.relative_tolerance : kRelativeTolerance;
   try {
-    const run::CommandedRun run = simulate(predictor, trial, options.relative_tolerance);
+    const run::CommandedRun run = simulate(predictor, trial, tolerance);
     result.readings = run.readings;
     result.commands = run.commands;
   } catch (const std::runtime_error& error) {

@@ -117,6 +117,8 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
     throw InputError("found no trial with role: train, expected at least one");
   }
   Diagnosis diagnosis;
+  diagnosis.unused_windows = data.unused_windows;
+  diagnosis.all_windows = data.windows.size() + data.unused_windows;
   Data kept = without_lost(model, data, diagnosis.lost);
   if (!kept.kept) {
     kept.kept = std::make_shared<KeptResults>();  // some work is asked for in more than one place

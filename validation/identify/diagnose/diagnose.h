@@ -118,8 +118,10 @@ struct Diagnosis {
   std::size_t windows = 0;  ///< on which the last errors are
   std::vector<LostWindow>
       lost;  ///< left out from the beginning: the model as given cannot be integrated there
-  std::size_t cut_windows = 0;  ///< those of them that are not followed to their end (predict/reach.h)
-  Stage final_stage;            ///< model with everything accepted, its parameters and estimate
+  std::size_t all_windows = 0;     ///< of the train and held-out trials
+  std::size_t unused_windows = 0;  ///< those of them that Data::limit() left out
+  std::size_t cut_windows = 0;     ///< those of them that are not followed to their end (predict/reach.h)
+  Stage final_stage;               ///< model with everything accepted, its parameters and estimate
   /// Of final_stage's parameters, those of what is named held against the cost (predict/profile.h); empty
   /// where that was not done: nothing named, or above the floor.
   Precision precision;

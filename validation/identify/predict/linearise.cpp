@@ -8,26 +8,26 @@
 
 namespace plumbline::validation {
 
-// Linearisation over piece n, which is in sample k of the window: at the middle of its states, under the
+// Linearisation over a piece, which is in sample k of the window: at the middle of its states, under the
 // sample's mean command. The rigid parts are those of the sample's first piece. Held longer they seem to tell
 // apart what the data cannot (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
-void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
+void Predictor::tangent_at(const Window& window, Eigen::Index k, const Piece& piece,
                            const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
                            Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
   Eigen::VectorXd command(plant_.motors());
   Eigen::VectorXd slope(plant_.motors());
   commands_->mean(window.first + k, command.data(), slope.data());
-  const Eigen::VectorXd middle = 0.5 * (states_.col(n) + states_.col(n + 1));
+  const Eigen::VectorXd middle = 0.5 * (states_.col(piece.from) + states_.col(piece.to));
   // A hair less than the piece: a force may jump at its ends, which is not this piece's matter.
-  const Eigen::VectorXd change = (1.0 - 1e-6) * (states_.col(n + 1) - states_.col(n));
-  const bool is_first = n == node_of(k);
-  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period,
-                  is_behind_jump(n)},
+  const Eigen::VectorXd change = (1.0 - 1e-6) * (states_.col(piece.to) - states_.col(piece.from));
+  const bool is_first = piece.from == node_of(k);
+  plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(piece), trial_.period,
+                  is_behind_jump(piece.from)},
                  ids, steps, is_first, A, B);
 }
 
-// Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
-// compliant ground's force begins and ends at zero, so that nothing jumps at touchdown and lift-off.
+// Along the predicted motion, piece by piece (pieces_of). A compliant ground's force begins and ends at zero,
+// so that nothing jumps at touchdown and lift-off.
 Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& x0,
                                    const std::vector<FreeParameter>& parameters) {
   constexpr int kPartsAfterJump = 4;  // it throws the deviations far along what is stiff behind it
@@ -91,7 +91,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     slopes.rightCols(np) += D;
     if (accelerometers_ && window.count > 1) {
       if (k == 0) {
-        tangent_at(window, k, node, ids, steps, A, B);
+        tangent_at(window, k, pieces_of(k, crossings).front(), ids, steps, A, B);
       }
       const Eigen::MatrixXd map = plant_.acceleration_map(states_.col(node).data());
       const Eigen::Index nz = plant_.positions();
@@ -112,14 +112,15 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
       break;
     }
     plates.begin();
-    for (Eigen::Index n = node; n < node_of(k + 1); ++n) {
-      jump_slopes(n, ids, steps, S);
-      tangent_at(window, k, n, ids, steps, A, B);
-      sensitivity.step(length_of(n), A, B, is_behind_jump(n) ? kPartsAfterJump : 1);
+    for (const Piece& piece : pieces_of(k, crossings)) {
+      jump_slopes(piece.from, ids, steps, S);
+      tangent_at(window, k, piece, ids, steps, A, B);
+      sensitivity.step(length_of(piece), A, B, is_behind_jump(piece.from) ? kPartsAfterJump : 1);
       if (plates.any()) {
-        plates.add(length_of(n), 0.5 * (states_.col(n) + states_.col(n + 1)), sensitivity.mean());
+        plates.add(length_of(piece), 0.5 * (states_.col(piece.from) + states_.col(piece.to)),
+                   sensitivity.mean());
       }
-      timing_slopes(window, crossings, n, sensitivity.before(), S, ids, out);
+      timing_slopes(window, crossings, piece.from, sensitivity.before(), S, ids, out);
     }
     if (plates.any()) {
       forces = plates.mean();

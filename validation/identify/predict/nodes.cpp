@@ -1,6 +1,7 @@
 // The points at which a predicted window is known: its samples, and points between them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/identify/predict/windows.h"
 
@@ -64,6 +65,49 @@ bool Predictor::is_near_ground(Eigen::Index node) {
   return false;
 }
 
+// Between two nodes that are not neighbours: do the ground's slopes at the middle hold over all of it? Every
+// foot that is in the ground stays there and is far below its surface beside what it moves, the force's
+// slope changes by as little, and nothing jumps or is timed on the way.
+bool Predictor::is_even(Eigen::Index from, Eigen::Index to, const std::vector<Crossing>& crossings) {
+  constexpr double kShareOfDepth = 0.1;
+  const auto inside = [&](Eigen::Index node) { return node >= from && node < to; };
+  if (std::any_of(jump_nodes_.begin(), jump_nodes_.end(),
+                  [&](const JumpNode& jump) { return inside(jump.node); }) ||
+      std::any_of(crossings.begin(), crossings.end(),
+                  [&](const Crossing& crossing) { return inside(crossing.node); })) {
+    return false;
+  }
+  for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (Eigen::Index n = from; n <= to; ++n) {
+      const double depth = plant_.foot_depth(static_cast<int>(f), states_.col(n).data()).depth;
+      least = std::min(least, depth);
+      most = std::max(most, depth);
+    }
+    if (most > 0.0 && !(most - least <= kShareOfDepth * least)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The whole sample where the ground is even over it: samples that are taken often against what the ground
+// does. Else, near the ground, the integrator's steps.
+std::vector<Predictor::Piece> Predictor::pieces_of(Eigen::Index sample,
+                                                   const std::vector<Crossing>& crossings) {
+  const Eigen::Index from = node_of(sample);
+  const Eigen::Index to = node_of(sample + 1);
+  if (to > from + 1 && is_even(from, to, crossings)) {
+    return {{from, to}};
+  }
+  std::vector<Piece> pieces;
+  for (Eigen::Index n = from; n < to; ++n) {
+    pieces.push_back({n, n + 1});
+  }
+  return pieces;
+}
+
 Eigen::Index Predictor::node_of(Eigen::Index sample) const {
   return node_of_sample_.empty() ? sample : node_of_sample_[static_cast<std::size_t>(sample)];
 }
@@ -83,6 +127,10 @@ Eigen::MatrixXd Predictor::predicted_states() const {
 double Predictor::node_time(Eigen::Index node) const {
   return node_times_.empty() ? static_cast<double>(node) * trial_.period
                              : node_times_[static_cast<std::size_t>(node)];
+}
+
+double Predictor::length_of(const Piece& piece) const {
+  return piece.to == piece.from + 1 ? length_of(piece.from) : node_time(piece.to) - node_time(piece.from);
 }
 
 double Predictor::length_of(Eigen::Index node) const {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <thread>
 
+#include "simulator/trace/error.h"
+
 namespace plumbline::validation {
 
 void parallel_for(int count, int threads, const std::function<void(int)>& work) {
@@ -51,13 +53,23 @@ Data Data::of_tests() const {
   copy.trials = tests;
   copy.tests.clear();
   copy.windows = cut_windows(copy.trials, predict);
-  return copy;
+  return copy.thinned(most_windows);
+}
+
+void Data::limit(std::size_t most) {
+  if (most == 0) {
+    throw InputError("found a limit of 0 windows, expected 1 at least");
+  }
+  const std::size_t all = windows.size();
+  *this = thinned(most);
+  most_windows = most;
+  unused_windows += all - windows.size();
 }
 
 Data Data::thinned(std::size_t most) const {
   Data copy = *this;
   copy.windows.clear();
-  for (const Role wanted : {Role::train, Role::held_out}) {
+  for (const Role wanted : {Role::train, Role::held_out, Role::test}) {
     const std::vector<int> all = windows_of(wanted);
     const std::size_t count = std::min(most, all.size());
     for (std::size_t i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -36,12 +37,17 @@ struct Data {
   const StopFlag* stop = nullptr;
   std::shared_ptr<KeptResults> kept{};  ///< where long work keeps its results (kept_results.h); may be empty
   std::vector<Trial> tests{};           ///< trials of role test; none of them is among `trials`
+  /// Of each role so many windows are used at most, and so many of train and held-out are not (limit()).
+  std::size_t most_windows = std::numeric_limits<std::size_t>::max(), unused_windows = 0;
 
   Data(std::vector<Trial> all, const PredictOptions& options);
   /// The tests as its trials, cut into windows.
   Data of_tests() const;
   /// The same trials with at most `most` windows of each role, spread evenly.
   Data thinned(std::size_t most) const;
+  /// From now on these are all the windows that there are: of each role `most` at most, spread evenly over
+  /// its trials, tests included. Throws InputError when `most` is 0.
+  void limit(std::size_t most);
   /// The same windows, of each the first `share` of its length, with the contact events in it.
   Data beginnings(double share) const;
   /// The same with a share for each window.

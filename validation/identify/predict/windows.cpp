@@ -10,6 +10,7 @@
 #include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
 #include "validation/identify/predict/jump_ode.h"
+#include "validation/identify/predict/tolerance.h"
 
 namespace plumbline::validation {
 namespace {
@@ -93,19 +94,37 @@ Eigen::MatrixXd Predictor::measured_positions() const {
   return from_channels_.positions(with_starts(measured_channels(trial_), false));
 }
 
-void Predictor::measure_motion() {
-  const Eigen::Index n = trial_.samples();
+// Of samples `from` to `to`, those that are not known yet: where poses are measured each takes a search.
+void Predictor::measure_motion(Eigen::Index from, Eigen::Index to) {
   const Eigen::Index nz = plant_.positions();
-  Eigen::MatrixXd rates(channels(), n);
-  for (int c = 0; c < channels(); ++c) {
-    const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
-    rates.row(c) =
-        sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal()).transpose();
+  if (motion_.size() == 0) {
+    motion_.resize(2 * nz, trial_.samples());
+    is_measured_.assign(static_cast<std::size_t>(trial_.samples()), false);
+    measured_rates_.resize(channels(), trial_.samples());
+    for (int c = 0; c < channels(); ++c) {
+      const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
+      measured_rates_.row(c) =
+          sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal())
+              .transpose();
+    }
   }
-  motion_.resize(2 * nz, n);
-  motion_.topRows(nz) = measured_positions();
-  motion_.bottomRows(nz) = from_channels_.rates(with_starts(rates, true), motion_.topRows(nz),
-                                                with_starts(measured_channels(trial_), false));
+  const auto is_known = [&](Eigen::Index k) { return is_measured_[static_cast<std::size_t>(k)]; };
+  while (from <= to && is_known(from)) {
+    ++from;
+  }
+  while (from <= to && is_known(to)) {
+    --to;
+  }
+  if (from > to) {
+    return;
+  }
+  const Eigen::Index count = to - from + 1;
+  const Eigen::MatrixXd values = with_starts(measured_channels(trial_).middleCols(from, count), false);
+  const Eigen::MatrixXd positions = from_channels_.positions(values);
+  motion_.block(0, from, nz, count) = positions;
+  motion_.block(nz, from, nz, count) =
+      from_channels_.rates(with_starts(measured_rates_.middleCols(from, count), true), positions, values);
+  std::fill(is_measured_.begin() + from, is_measured_.begin() + to + 1, true);
 }
 
 void Predictor::carry_hidden(const Window& window, double* x) {
@@ -114,15 +133,13 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   if (hidden.empty() || too_short) {
     return;
   }
-  if (motion_.size() == 0) {
-    measure_motion();
-  }
   const auto history = remembers_heat(plant_) ? kHeat : options_.history;
   const auto reach = static_cast<Eigen::Index>(std::lround(history / trial_.period));
   Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
   for (const Stretch& stretch : trial_.stretches) {
     from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
   }
+  measure_motion(from, window.first);
   Eigen::VectorXd command(plant_.motors());
   commands_->at(from, 0, command.data());
   plant_.settle(command.data(), x);
@@ -174,22 +191,40 @@ bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, double most
   return run(window, x0, options_.method, options_.most_steps, most);
 }
 
+// At the state with which the window begins.
+integrate::Options Predictor::tolerances(const Window& window) {
+  integrate::Options options;
+  if (options_.relative_tolerance > 0.0) {
+    options.set_tolerance(options_.relative_tolerance);
+    return options;
+  }
+  std::vector<FlooredSensor> shown;
+  for (int c = 0; c < channels(); ++c) {
+    shown.push_back({sensor_of_channel_[static_cast<std::size_t>(c)], floors_[c]});
+  }
+  Eigen::VectorXd command(plant_.motors());
+  commands_->at(window.first, 0, command.data());
+  options.set_tolerance(kRelativeTolerance);
+  options.absolute_tolerance = tolerances_of(plant_, shown, states_.col(0), command.data(),
+                                             static_cast<double>(window.count - 1) * trial_.period);
+  return options;
+}
+
 bool Predictor::run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method,
                     double most_steps, double most) {
   begin_nodes(window);
   JumpOde ode(plant_, jumps_);
-  integrate::Options options;
-  options.set_tolerance(options_.relative_tolerance);
-  options.method = method;
-  options.order = method == integrate::Method::explicit_rk ? 3 : 0;
-  options.max_steps = most_steps_of_sample(options_.relative_tolerance);
-  integrate::Integrator integrator(ode, options);
   refresh_commands();
   states_.col(0) = x0;
   if (plant_.has_loops()) {
     plant_.close_loops(states_.col(0).data());  // a search moves states off them
   }
   carry_hidden(window, states_.col(0).data());
+  integrate::Options options = tolerances(window);
+  options.method = method;
+  options.order = method == integrate::Method::explicit_rk ? 3 : 0;
+  options.max_steps = most_steps_of_sample(options.relative_tolerance);
+  integrate::Integrator integrator(ode, options);
   const double t0 = trial_.time[window.first];
   integrator.start(t0, states_.col(0));
   const std::vector<double>& breaks = commands_->breaks();
@@ -267,7 +302,9 @@ double Predictor::square_of_sample(const Window& window, Eigen::Index sample) {
 }
 
 void Predictor::advance_in_pieces(integrate::Integrator& integrator, double end, double t0) {
-  const long most = integrator.summary().steps + most_steps_of_sample(options_.relative_tolerance);
+  const double tolerance =
+      options_.relative_tolerance > 0.0 ? options_.relative_tolerance : kRelativeTolerance;
+  const long most = integrator.summary().steps + most_steps_of_sample(tolerance);
   while (integrator.time() < end) {
     if (integrator.summary().steps > most) {
       throw std::runtime_error("a sample needs more integrator steps than are worth while");

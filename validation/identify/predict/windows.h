@@ -31,8 +31,8 @@ constexpr double kLead = 0.025;
 constexpr double kTail = 0.01;
 
 struct PredictOptions {
-  double window = 0.5;  ///< s
-  double relative_tolerance = 1e-5;
+  double window = 0.5;              ///< s
+  double relative_tolerance = 0.0;  ///< of the integrator; 0: as the sensors' floors ask (tolerance.h)
   double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
   /// Integrator steps for each sample, mean over what was run of a window and a fifth of it (at least 20
   /// samples); a law that needs more: std::runtime_error.
@@ -160,6 +160,11 @@ class Predictor {
     double rate = 0.0;       // of the depth, m/s
   };
 
+  /// Nodes between which deviations are carried in one step.
+  struct Piece {
+    Eigen::Index from = 0, to = 0;
+  };
+
   /// A node at which a switching function went through zero and a force jumped.
   struct JumpNode {
     Eigen::Index node = 0;
@@ -172,6 +177,7 @@ class Predictor {
            double most = std::numeric_limits<double>::infinity());
   bool run(const Window& window, const Eigen::VectorXd& x0, integrate::Method method, double most_steps,
            double most);
+  integrate::Options tolerances(const Window& window);
   double square_of_sample(const Window& window, Eigen::Index sample);
   Eigen::MatrixXd predicted(const Window& window);
   Eigen::VectorXd residual_of_run(const Window& window);
@@ -192,6 +198,7 @@ class Predictor {
   void hold(const Window& window, Eigen::Index sample);
   double node_time(Eigen::Index node) const;  // s after the window's first sample
   double length_of(Eigen::Index node) const;
+  double length_of(const Piece& piece) const;
   void stay_in_phase(Eigen::Index first, Eigen::Index& from, Eigen::Index& to) const;
   std::vector<Crossing> crossings_of(const Window& window);
   Crossing nearest_crossing(int foot, double threshold, bool touchdown, double time, double farthest);
@@ -204,7 +211,9 @@ class Predictor {
   Linearisation linearise_by_differences(const Window& window, const Eigen::VectorXd& x0,
                                          const std::vector<FreeParameter>& parameters);
   void refresh_commands();
-  void tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
+  std::vector<Piece> pieces_of(Eigen::Index sample, const std::vector<Crossing>& crossings);
+  bool is_even(Eigen::Index from, Eigen::Index to, const std::vector<Crossing>& crossings);
+  void tangent_at(const Window& window, Eigen::Index k, const Piece& piece,
                   const std::vector<model::ParameterId>& ids, const Eigen::VectorXd& steps,
                   Eigen::MatrixXd& A, Eigen::MatrixXd& B);
   void read_sensors(const Window& window, Eigen::Index sample, Eigen::VectorXd& y);
@@ -216,7 +225,7 @@ class Predictor {
   void fall_freely(const Window& window, Eigen::VectorXd& x);
   void touch_down_in_time(const Window& window, int foot, double touchdown, const Eigen::VectorXd& a,
                           Eigen::VectorXd& x);
-  void measure_motion();
+  void measure_motion(Eigen::Index from, Eigen::Index to);
   void carry_hidden(const Window& window, double* x);
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                 const Eigen::VectorXd& steps);
@@ -245,7 +254,9 @@ class Predictor {
   std::vector<model::Plant::Jump> jumps_;  // that the model's forces can make
   std::vector<JumpNode> jump_nodes_;       // that they made
   std::size_t events_seen_ = 0;
-  Eigen::MatrixXd motion_;  // positions and velocities x samples, measured; empty until it is needed
+  Eigen::MatrixXd motion_;          // positions and velocities x samples, measured; empty until it is needed
+  std::vector<bool> is_measured_;   // which samples of it are known
+  Eigen::MatrixXd measured_rates_;  // channels x samples
   long evaluations_ = 0;
 };
 
