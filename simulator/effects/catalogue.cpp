@@ -27,6 +27,9 @@
 #include "simulator/effects/hardening.h"
 #include "simulator/effects/harmonic_drive.h"
 #include "simulator/effects/hysteresis.h"
+#include "simulator/effects/imu_bias.h"
+#include "simulator/effects/imu_misalignment.h"
+#include "simulator/effects/imu_scale.h"
 #include "simulator/effects/link_inertia.h"
 #include "simulator/effects/load_friction.h"
 #include "simulator/effects/lugre.h"
@@ -101,6 +104,9 @@ Catalogue Catalogue::all() {
       std::make_shared<const EncoderScale>(),
       std::make_shared<const EncoderEccentricity>(),
       std::make_shared<const SensorLag>(),
+      std::make_shared<const ImuBias>(),
+      std::make_shared<const ImuScale>(),
+      std::make_shared<const ImuMisalignment>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

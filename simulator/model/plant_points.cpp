@@ -1,6 +1,7 @@
 // What is measured at points of links, and how it changes with the state.
 #include <algorithm>
 
+#include "simulator/model/inertial_sensors.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/point_sensors.h"
 
@@ -11,6 +12,17 @@ namespace {
 constexpr double kStep = 1e-5;
 
 using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+/// From slopes of what inertial sensors truly feel to those of what they read, sensors x anything.
+template <typename Chains, typename Values>
+void read_slopes(const Chains& chains, const Values& values, Eigen::MatrixXd& slopes) {
+  for (std::size_t s = 0; s < chains.size(); ++s) {
+    if (has_inertial(chains[s])) {
+      auto three = slopes.middleRows<3>(static_cast<Eigen::Index>(s));
+      three = (inertial_reading(chains[s], values).gain * three).eval();
+    }
+  }
+}
 
 }  // namespace
 
@@ -57,6 +69,14 @@ void Plant::point_outputs(const double* x, const double* command, double* y) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     y[points_[i].sensor] = readings[static_cast<Eigen::Index>(i)];
   }
+  for (std::size_t s = 0; s < sensor_effects_.size(); ++s) {
+    if (has_inertial(sensor_effects_[s])) {
+      const effects::InertialReading reads =
+          inertial_reading(sensor_effects_[s], [&](const SensorSlot& slot) { return values(slot.effect); });
+      Eigen::Map<Eigen::Vector3d> three(y + s);
+      three = (reads.gain * three + reads.bias).eval();
+    }
+  }
 }
 
 Eigen::MatrixXd Plant::acceleration_map(const double* x) {
@@ -68,6 +88,8 @@ Eigen::MatrixXd Plant::acceleration_map(const double* x) {
       map.row(slot.sensor) = point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
     }
   }
+  read_slopes(
+      sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, map);
   return map;
 }
 
@@ -107,6 +129,8 @@ void Plant::point_jacobian(const double* x, const double* command, Eigen::Matrix
     }
   }
   rigid_at(x);
+  read_slopes(
+      sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, C);
 }
 
 // An accelerometer feels where gravity points, beside what that does to the motion.
@@ -133,6 +157,8 @@ void Plant::tilt_tangent(const double* x, const std::vector<ParameterId>& parame
       }
     }
   }
+  read_slopes(
+      sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, D);
 }
 
 }  // namespace plumbline::model

@@ -197,6 +197,20 @@ const std::vector<Row>& pendulum_rows() {
   return kRows;
 }
 
+// What the unit shows of a planar arm: turns about y, specific forces across and along the arm. The floors
+// are 0.005 rad/s and 0.05 m/s^2.
+const std::vector<Row>& inertial_rows() {
+  static const std::vector<Row> kRows{
+      {"imu_bias", "gyro", "x=0.02|0.2,y=-0.02|-0.2,z=0.015|0.15"},
+      {"imu_scale", "gyro", "x=1,y=1+0.015|0.15,z=1"},
+      {"imu_misalignment", "gyro", "x=0.01|0.1,y=0,z=-0.01|-0.1"},
+      {"imu_bias", "acc", "x=0.2|2,y=-0.2|-2,z=0.15|1.5"},
+      {"imu_scale", "acc", "x=1+0.02|0.2,y=1,z=1-0.02|0.2"},
+      {"imu_misalignment", "acc", "x=0.01|0.1,y=-0.01|-0.1,z=0.01|0.1"},
+  };
+  return kRows;
+}
+
 // The sealed rig. Never used to develop: it is run once for each release (docs/battery.md).
 const std::vector<Row>& cart_rows() {
   static const std::vector<Row> kRows{

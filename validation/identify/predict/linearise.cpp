@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/inertial_tangent.h"
 #include "validation/identify/predict/plate_slopes.h"
 #include "validation/identify/predict/sensitivity.h"
 #include "validation/identify/predict/windows.h"
 
 namespace plumbline::validation {
-
 // Linearisation over piece n, which is in sample k of the window: at the middle of its states, under the
 // sample's mean command. The rigid parts are those of the sample's first piece. Held longer they seem to tell
 // apart what the data cannot (OwnParameters.IntervalsHoldTheTruthAsOftenAsTheySay).
@@ -76,6 +76,8 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd B;
   Eigen::MatrixXd C;
   Eigen::MatrixXd D;
+  const bool with_inertial = model::is_any_inertial(plant_.model(), ids);
+  Eigen::VectorXd readings(plant_.sensors());
   const std::vector<Crossing> crossings = crossings_of(window);
   PlateSlopes plates(plant_, ids, steps);
   Eigen::MatrixXd forces;
@@ -87,6 +89,10 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     const double* command = command_of_reading(window, k);
     plant_.output_jacobian(states_.col(node).data(), C, command);
     plant_.output_tangent(states_.col(node).data(), ids, steps, D);
+    if (with_inertial) {
+      read_sensors(window, k, readings);
+      model::add_inertial_tangent(plant_, readings, ids, steps, D);
+    }
     Eigen::MatrixXd slopes = C * S.topRows(C.cols());
     slopes.rightCols(np) += D;
     if (accelerometers_ && window.count > 1) {
