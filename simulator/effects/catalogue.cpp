@@ -11,6 +11,7 @@
 #include "simulator/effects/battery.h"
 #include "simulator/effects/boom.h"
 #include "simulator/effects/cable_stretch.h"
+#include "simulator/effects/clock_drift.h"
 #include "simulator/effects/cogging.h"
 #include "simulator/effects/com_shift.h"
 #include "simulator/effects/command_delay.h"
@@ -93,6 +94,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const CurrentLoop>(),
       std::make_shared<const Winding>(),
       std::make_shared<const CommandDelay>(),
+      std::make_shared<const ClockDrift>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
       std::make_shared<const ComShift>(),

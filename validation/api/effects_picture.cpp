@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/effects/clock_law.h"
 #include "simulator/effects/inertial_sensor_law.h"
 #include "simulator/effects/late_sensor_law.h"
 #include "simulator/effects/parameters.h"
@@ -179,6 +180,9 @@ std::string of_inertial_sensor(const effects::InertialSensorLaw& law) {
 std::string effect_picture(const effects::Law& law) {
   if (const auto* force = dynamic_cast<const ForceLaw*>(&law)) {
     return of_force(*force);
+  }
+  if (dynamic_cast<const effects::ClockLaw*>(&law) != nullptr) {
+    return "";
   }
   const auto* actuator = dynamic_cast<const ActuatorLaw*>(&law);
   if (actuator != nullptr && !law.sits_at(effects::Place::world) &&

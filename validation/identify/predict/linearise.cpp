@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "simulator/model/inertial_tangent.h"
+#include "validation/identify/predict/clock_slopes.h"
 #include "validation/identify/predict/plate_slopes.h"
 #include "validation/identify/predict/sensitivity.h"
 #include "validation/identify/predict/windows.h"
@@ -24,6 +25,7 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, Eigen::Index n,
   plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(n), trial_.period,
                   is_behind_jump(n)},
                  ids, steps, is_first, A, B);
+  clock_slopes(plant_, command_samples_, window.first + k, trial_.period, middle, command, ids, B);
 }
 
 // Along the predicted motion, piece by piece: a sample, or near the ground a step of the integrator. A
