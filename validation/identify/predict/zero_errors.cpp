@@ -126,7 +126,7 @@ Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<Z
     }
   }
   if (feet.empty()) {
-    return none;
+    return Eigen::VectorXd::Zero(count);
   }
   const auto stood = static_cast<Eigen::Index>(feet.size());
   Eigen::MatrixXd J(stood, count);  // by offsets in units of their deviations
