@@ -11,6 +11,7 @@
 #include "simulator/effects/battery.h"
 #include "simulator/effects/boom.h"
 #include "simulator/effects/cable_stretch.h"
+#include "simulator/effects/clock_drift.h"
 #include "simulator/effects/cogging.h"
 #include "simulator/effects/com_shift.h"
 #include "simulator/effects/command_delay.h"
@@ -27,6 +28,9 @@
 #include "simulator/effects/hardening.h"
 #include "simulator/effects/harmonic_drive.h"
 #include "simulator/effects/hysteresis.h"
+#include "simulator/effects/imu_bias.h"
+#include "simulator/effects/imu_misalignment.h"
+#include "simulator/effects/imu_scale.h"
 #include "simulator/effects/link_inertia.h"
 #include "simulator/effects/load_friction.h"
 #include "simulator/effects/lugre.h"
@@ -90,6 +94,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const CurrentLoop>(),
       std::make_shared<const Winding>(),
       std::make_shared<const CommandDelay>(),
+      std::make_shared<const ClockDrift>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),
       std::make_shared<const ComShift>(),
@@ -101,6 +106,9 @@ Catalogue Catalogue::all() {
       std::make_shared<const EncoderScale>(),
       std::make_shared<const EncoderEccentricity>(),
       std::make_shared<const SensorLag>(),
+      std::make_shared<const ImuBias>(),
+      std::make_shared<const ImuScale>(),
+      std::make_shared<const ImuMisalignment>(),
       std::make_shared<const SwitchLateness>(),
   });
 }

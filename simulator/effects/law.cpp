@@ -66,6 +66,7 @@ std::string unit_at(const std::string& general_unit, bool angular) {
   replace_all(unit, "{force}", angular ? "N m" : "N");
   replace_all(unit, "{position}", angular ? "rad" : "m");
   replace_all(unit, "{inertia}", angular ? "kg m^2" : "kg");
+  replace_all(unit, "{inertial}", angular ? "rad/s" : "m/s^2");
   return unit;
 }
 

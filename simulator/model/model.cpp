@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/inertial_sensors.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/places.h"
 #include "simulator/model/planar_base.h"
@@ -133,7 +134,8 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
       return ratio == nullptr || is_angular(*this, ratio->motor);
     }
     case effects::Place::sensor: {
-      const Sensor* sensor = find_sensor(at);
+      const Sensor* inertial = find_inertial(*this, at);
+      const Sensor* sensor = inertial != nullptr ? inertial : find_sensor(at);
       if (sensor != nullptr && sensor->is_at_point()) {
         return sensor->reading == PointReading::orientation || sensor->reading == PointReading::gyroscope;
       }
@@ -157,9 +159,21 @@ effects::Place Model::resolve(const effects::Law& law, const std::string& at) co
   throw InputError({file, 0, law.declaration().name}, "place \"" + at + "\"", expected_place(*this, law, at));
 }
 
+namespace {
+
+bool is_of_inertial(const effects::Law& law, effects::Place place) {
+  return place == effects::Place::sensor && dynamic_cast<const effects::InertialSensorLaw*>(&law) != nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> places_of(const Model& model, const effects::Law& law, effects::Place place) {
+  return is_of_inertial(law, place) ? inertial_sensors(model) : model.places(place);
+}
+
 std::optional<effects::Place> find_place(const Model& model, const effects::Law& law, const std::string& at) {
   for (const effects::Place place : law.declaration().places) {
-    const std::vector<std::string> names = model.places(place);
+    const std::vector<std::string> names = places_of(model, law, place);
     if (std::find(names.begin(), names.end(), at) != names.end()) {
       return place;
     }
@@ -171,8 +185,10 @@ std::string expected_place(const Model& model, const effects::Law& law, const st
   std::string kinds;
   std::vector<std::string> known;
   for (const effects::Place place : law.declaration().places) {
-    kinds += (kinds.empty() ? "" : " or ") + effects::to_string(place);
-    for (const std::string& name : model.places(place)) {
+    const std::string kind =
+        is_of_inertial(law, place) ? "gyroscope or accelerometer of three axes" : effects::to_string(place);
+    kinds += (kinds.empty() ? "" : " or ") + kind;
+    for (const std::string& name : places_of(model, law, place)) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {
         known.push_back(name);
       }

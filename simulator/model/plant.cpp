@@ -9,6 +9,7 @@
 
 #include "simulator/effects/supply_law.h"
 #include "simulator/model/body_change.h"
+#include "simulator/model/inertial_sensors.h"
 #include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
 
@@ -261,7 +262,7 @@ void Plant::place_effects() {
       structures_.push_back({structure, e});
     } else if (const auto* sensor = dynamic_cast<const effects::SensorLaw*>(law)) {
       for (std::size_t s = 0; s < model_.sensors.size(); ++s) {
-        if (model_.sensors[s].name == use.at) {
+        if (model_.sensors[s].name == use.at || sits_at_first(*law, use.at, model_.sensors[s])) {
           sensor_effects_[s].push_back({sensor, e});
         }
       }

@@ -1,6 +1,7 @@
 // What is measured at points of links, and how it changes with the state.
 #include <algorithm>
 
+#include "simulator/model/inertial_sensors.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/point_sensors.h"
 
@@ -10,6 +11,17 @@ namespace {
 /// Does the reading change with positions in a way that point_rows() does not tell?
 bool is_felt(PointReading reading) {
   return reading == PointReading::gyroscope || reading == PointReading::accelerometer;
+}
+
+/// From slopes of what inertial sensors truly feel to those of what they read, sensors x anything.
+template <typename Chains, typename Values>
+void read_slopes(const Chains& chains, const Values& values, Eigen::MatrixXd& slopes) {
+  for (std::size_t s = 0; s < chains.size(); ++s) {
+    if (has_inertial(chains[s])) {
+      auto three = slopes.middleRows<3>(static_cast<Eigen::Index>(s));
+      three = (inertial_reading(chains[s], values).gain * three).eval();
+    }
+  }
 }
 
 }  // namespace
@@ -57,6 +69,14 @@ void Plant::point_outputs(const double* x, const double* command, double* y) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     y[points_[i].sensor] = readings[static_cast<Eigen::Index>(i)];
   }
+  for (std::size_t s = 0; s < sensor_effects_.size(); ++s) {
+    if (has_inertial(sensor_effects_[s])) {
+      const effects::InertialReading reads =
+          inertial_reading(sensor_effects_[s], [&](const SensorSlot& slot) { return values(slot.effect); });
+      Eigen::Map<Eigen::Vector3d> three(y + s);
+      three = (reads.gain * three + reads.bias).eval();
+    }
+  }
 }
 
 Eigen::MatrixXd Plant::acceleration_map(const double* x) {
@@ -68,6 +88,8 @@ Eigen::MatrixXd Plant::acceleration_map(const double* x) {
       map.row(slot.sensor) = point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
     }
   }
+  read_slopes(
+      sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, map);
   return map;
 }
 
@@ -85,6 +107,8 @@ void Plant::point_jacobian(const double* x, const double* command, Eigen::Matrix
   }
   if (model_.has(PointReading::accelerometer) || model_.has(PointReading::gyroscope)) {
     feel_points(accelerations_at(x, command), C);
+    read_slopes(
+        sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, C);
   }
 }
 
@@ -139,6 +163,8 @@ void Plant::tilt_tangent(const double* x, const std::vector<ParameterId>& parame
       }
     }
   }
+  read_slopes(
+      sensor_effects_, [&](const SensorSlot& slot) { return values(slot.effect); }, D);
 }
 
 }  // namespace plumbline::model

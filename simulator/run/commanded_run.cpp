@@ -1,5 +1,7 @@
 #include "simulator/run/commanded_run.h"
 
+#include "simulator/integrate/command_clock.h"
+
 namespace plumbline::run {
 namespace {
 
@@ -28,6 +30,10 @@ CommandedRun run_commands(model::Plant& plant, const Eigen::VectorXd& x0, const 
   }
   Sensors exact(plant.model(), {false, false, 0});
   Sensed sensed;
+  const std::vector<effects::ClockError> clocks = integrate::command_clocks(plant);
+  const bool is_other_clock = !controller && integrate::is_any_wrong(clocks);
+  const Eigen::MatrixXd arriving =
+      is_other_clock ? integrate::on_clock_of_measurements(commands, period, clocks) : Eigen::MatrixXd();
   Eigen::VectorXd command;
   for (Eigen::Index k = 0; k < samples; ++k) {
     simulation.measure();
@@ -42,6 +48,9 @@ CommandedRun run_commands(model::Plant& plant, const Eigen::VectorXd& x0, const 
       controller(k, simulation.time(), sensed.readings, command.data());
     }
     result.commands.col(k) = command;
+    if (is_other_clock) {
+      command = arriving.col(k);
+    }
     if (options.energy) {
       simulation.account(command);
     }

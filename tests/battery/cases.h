@@ -53,6 +53,7 @@ const Robot& robot_of(const Case& one);
 /// The tables.
 const std::vector<Row>& leg_bench_rows();
 const std::vector<Row>& pendulum_rows();
+const std::vector<Row>& inertial_rows();
 const std::vector<Row>& hopper_rows();
 const std::vector<Row>& mabel_rows();
 const std::vector<Row>& cart_rows();
@@ -65,8 +66,8 @@ const std::vector<Row>& hopper_foreign_rows();
 using Pair = std::pair<std::string, std::string>;
 const std::vector<Pair>& leg_bench_pairs();
 
-/// The robots of a rig: bench, pendulum, hopper, mabel, sealed or all (but mabel, which takes minutes a case,
-/// and the sealed one, which is for releases). Throws std::invalid_argument for another name.
+/// The robots of a rig: bench, pendulum, inertial, hopper, mabel, sealed or all (but mabel, which takes
+/// minutes a case, and the sealed one, which is for releases). Throws std::invalid_argument for another name.
 std::vector<std::string> robots_of_rig(const std::string& rig);
 
 /// All cases in the order of the tables.

@@ -144,7 +144,7 @@ void check_complete(const model::Model& model, const model::Model& hopper, Check
     const auto has_row = [&](const std::vector<Row>& some) {
       return std::any_of(some.begin(), some.end(), [&](const Row& row) { return row.effect == name; });
     };
-    checks.expect(has_row(rows) || has_row(hopper_rows()) ||
+    checks.expect(has_row(rows) || has_row(hopper_rows()) || has_row(inertial_rows()) ||
                       (law->sits_at(effects::Place::base) && has_row(mabel_rows())),
                   "no rig of the battery has a row for " + name);
   }

@@ -27,6 +27,7 @@ const std::vector<Row>& leg_bench_rows() {
       {"torque_constant_error", "mLA", "scale=1+4.4e-3|0.038"},
       {"actuator_lag", "mLA", "time_constant=5e-4|4.6e-3"},
       {"command_delay", "mLA", "delay=5e-4|4.6e-3"},
+      {"clock_drift", "mLA", "offset=2e-4|1.8e-3,drift=2.5e-4|2e-3"},
       {"rotor_inertia", "mLA", "inertia=1.1e-5|9.4e-5"},
       {"viscous", "mLS", "damping=2.4e-3|4e-3"},
       {"coulomb", "mLS", "level=1.3e-3|0.011,smoothing_speed=0.03"},
@@ -44,6 +45,7 @@ const std::vector<Row>& leg_bench_rows() {
       {"torque_constant_error", "mLS", "scale=1+2.1e-3|0.018"},
       {"actuator_lag", "mLS", "time_constant=5e-4|3.7e-3"},
       {"command_delay", "mLS", "delay=5e-4|3.7e-3"},
+      {"clock_drift", "mLS", "offset=1e-3|8e-3,drift=-1.5e-4|-1.2e-3"},
       {"rotor_inertia", "mLS", "inertia=2e-5|1.3e-4"},
       {"viscous", "thigh", "damping=0.03|0.26"},
       {"coulomb", "thigh", "level=0.018|0.16,smoothing_speed=0.001"},
@@ -182,6 +184,7 @@ const std::vector<Row>& pendulum_rows() {
       {"asymmetric_spring", "shoulder", "stiffness_above=3e-3|0.02,stiffness_below=1.5e-3|0.01,rest=0"},
       {"resonator", "shoulder", "inertia=1e-4|1e-3,frequency=5,damping_ratio=0.1"},
       {"actuator_lag", "drive", "time_constant=6.3e-5|5.5e-4"},
+      {"clock_drift", "drive", "offset=5e-5|4e-4,drift=3e-5|2.5e-4"},
       {"hardening", "shoulder", "cubic_stiffness=7.9e-3|0.069,rest=0"},
       {"backlash", "shoulder", "gap=3e-3|0.039,stiffness=20,damping=0.02"},
       {"cable_stretch", "shoulder", "stiffness=10|1.5,damping=5e-3"},
@@ -193,6 +196,20 @@ const std::vector<Row>& pendulum_rows() {
       {"sensor_lag", "shoulder", "lag=3e-4|2.5e-3"},
       {"encoder_offset", "drive", "offset=8.3e-3|0.074"},
       {"encoder_scale", "shoulder", "scale=1+1.1e-3|9.8e-3"},
+  };
+  return kRows;
+}
+
+// What the unit shows of a planar arm: turns about y, specific forces across and along the arm. The floors
+// are 0.005 rad/s and 0.05 m/s^2.
+const std::vector<Row>& inertial_rows() {
+  static const std::vector<Row> kRows{
+      {"imu_bias", "gyro", "x=0.02|0.2,y=-0.02|-0.2,z=0.015|0.15"},
+      {"imu_scale", "gyro", "x=1,y=1+0.015|0.15,z=1"},
+      {"imu_misalignment", "gyro", "x=0.01|0.1,y=0,z=-0.01|-0.1"},
+      {"imu_bias", "acc", "x=0.2|2,y=-0.2|-2,z=0.15|1.5"},
+      {"imu_scale", "acc", "x=1+0.02|0.2,y=1,z=1-0.02|0.2"},
+      {"imu_misalignment", "acc", "x=0.01|0.1,y=-0.01|-0.1,z=0.01|0.1"},
   };
   return kRows;
 }

@@ -129,7 +129,8 @@ TEST(Worlds, DrivesAndWhatRattlesAreTheSimulatorsTwin) {
         "torque_ripple@mLS:sine=0.05,cosine=-0.03,cycles=12", "winding@mLA:time_constant=0.004,slope=0.02",
         "harmonic_drive@leg_angle:stiffness_soft=6,stiffness_stiff=15,windup=0.03,damping=0.05",
         "battery@world:stall_sag=0.05,speed_sag=1e-3",
-        "resonator@leg_shape:inertia=0.08,frequency=6,damping_ratio=0.1"}) {
+        "resonator@leg_shape:inertia=0.08,frequency=6,damping_ratio=0.1",
+        "clock_drift@mLA:offset=1.3e-3,drift=4e-3"}) {
     EXPECT_LT(farthest("leg_bench", "robots/mabel/experiments/mimo.yaml", hidden, 0.5, false), kSame)
         << hidden;
   }

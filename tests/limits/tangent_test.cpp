@@ -179,6 +179,10 @@ const std::vector<Case>& cases() {
         {"resonator", "leg_angle", "frequency", 6.0},
         {"resonator", "leg_angle", "damping_ratio", 0.1}}},
       {"command_delay", {"command_delay@mLA:delay=0.0023"}, {{"command_delay", "mLA", "delay", 0.01}}},
+      // Within the window no whole sample is passed: there the mean of held commands has a corner.
+      {"clock_drift",
+       {"clock_drift@mLA:offset=0.0021,drift=0.001"},
+       {{"clock_drift", "mLA", "offset", 0.01}, {"clock_drift", "mLA", "drift", 0.01}}},
       {"rotor_inertia", {"rotor_inertia@mLA:inertia=3e-5"}, {{"rotor_inertia", "mLA", "inertia", 5e-4}}},
       {"gravity_tilt", {"gravity_tilt@world:roll=0,pitch=0.02"}, {{"gravity_tilt", "world", "pitch", 0.1}}},
   };

@@ -64,7 +64,8 @@ constexpr const char* kHead =
     "[design.md](design.md) the four kinds of\nlaws, [CONTRIBUTING.md](../CONTRIBUTING.md) how to add one. A "
     "force is drawn over position and velocity, along a sine, under a\ntorque that swings with it; an "
     "actuator's "
-    "torque over its command and in time; a sensor's reading and error over the true value.\nInertias, "
+    "torque over its command and in time; a sensor's reading and error over the true value,\n"
+    "an inertial sensor's of a vector that turns once. Inertias, "
     "delays, the battery and "
     "the ground have no picture. In equations `x` and `v` are position and velocity of the place, `u` is "
     "the\n"
@@ -74,7 +75,8 @@ constexpr const char* kHead =
     "coordinate; the two waves a\nturn of a harmonic drive are `encoder_eccentricity` (waves 2) and "
     "`cogging` "
     "(cycles 2) of its motor; a mounting that yields and a link\nthat bends are `resonator` with a negative "
-    "`rotor_inertia`; clocks of command and measurement apart are `command_delay` of all motors.\n";
+    "`rotor_inertia`; clocks of command and measurement apart are `command_delay` of all motors,\n"
+    "and `clock_drift` where the two run apart.\n";
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/effects/clock_law.h"
+#include "simulator/effects/inertial_sensor_law.h"
 #include "simulator/effects/late_sensor_law.h"
 #include "simulator/effects/parameters.h"
 
@@ -158,16 +160,37 @@ std::string of_sensor(const effects::SensorLaw& law) {
   return svg(panel(readings, 8.0, "true value", "reading") + panel(errors, 128.0, "true value", "error"));
 }
 
+/// What it reads of a vector that turns once in the plane of its first two axes.
+std::string of_inertial_sensor(const effects::InertialSensorLaw& law) {
+  const effects::InertialReading reads = law.inertial_reading(drawn_values(law).data());
+  Curve readings;
+  Curve errors;
+  for (int i = 0; i <= kDrawn; ++i) {
+    const double angle = kPeriod * i / kDrawn;
+    const Eigen::Vector3d actual(std::cos(angle), std::sin(angle), 0.0);
+    const Eigen::Vector3d reading = reads.gain * actual + reads.bias;
+    readings.emplace_back(reading.x(), reading.y());
+    errors.emplace_back(angle - 0.5 * kPeriod, reading.x() - actual.x());
+  }
+  return svg(panel(readings, 8.0, "x", "y") + panel(errors, 128.0, "turn", "error of x"));
+}
+
 }  // namespace
 
 std::string effect_picture(const effects::Law& law) {
   if (const auto* force = dynamic_cast<const ForceLaw*>(&law)) {
     return of_force(*force);
   }
+  if (dynamic_cast<const effects::ClockLaw*>(&law) != nullptr) {
+    return "";
+  }
   const auto* actuator = dynamic_cast<const ActuatorLaw*>(&law);
   if (actuator != nullptr && !law.sits_at(effects::Place::world) &&
       actuator->delay(drawn_values(law).data()) == 0.0) {
     return of_actuator(*actuator);
+  }
+  if (const auto* inertial = dynamic_cast<const effects::InertialSensorLaw*>(&law)) {
+    return of_inertial_sensor(*inertial);
   }
   const auto* sensor = dynamic_cast<const effects::SensorLaw*>(&law);
   const bool is_late = dynamic_cast<const effects::LateSensorLaw*>(&law) != nullptr;

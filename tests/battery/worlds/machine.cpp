@@ -29,6 +29,7 @@ Machine::Machine(const Rig& rig, const std::vector<std::string>& locked, const V
   lag_.assign(motors, 0.0);
   bias_.assign(motors, 0.0);
   delay_.assign(motors, 0.0);
+  drift_.assign(motors, 0.0);
   build_coupling(locked, start);
   states_ = 2 * positions();
   add_bristles();
@@ -118,6 +119,11 @@ void Machine::add_effects() {
     }
     if (effect.effect == "command_delay") {
       delay_[i] += effect["delay"];
+      continue;
+    }
+    if (effect.effect == "clock_drift") {
+      delay_[i] += effect["offset"];
+      drift_[i] += effect["drift"];
       continue;
     }
     if (is_of_drive(effect)) {

@@ -120,7 +120,7 @@ class Machine {
   std::vector<Light> light_;
   std::vector<Acting> acting_;
   std::vector<int> lag_state_;  // of each motor; -1: none
-  std::vector<double> lag_, bias_, delay_;
+  std::vector<double> lag_, bias_, delay_, drift_;
   std::vector<Loop> loops_, warming_, circuits_;
   std::vector<Hidden> batteries_;
   std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action

@@ -176,12 +176,21 @@ void Machine::step(const Vector& commands, double h, State& x) const {
   }
 }
 
+// Command j acts from the instant t on at which t - delay - drift t = j period: the first one behind
+// `begins`, counted from there.
+static double next_command(double delay, double drift, double begins, double period) {
+  const double past = std::floor((begins - delay - drift * begins) / period);
+  return ((past + 1.0) * period + delay) / (1.0 - drift) - begins;
+}
+
 void Machine::advance(State& x, const Eigen::MatrixXd& commands, Eigen::Index k, double period) const {
   // Where a delayed command changes within the sample.
   std::vector<double> ends{period};
-  for (const double delay : delay_) {
-    const double change = std::fmod(delay, period);
-    if (change > 1e-12) {
+  const double begins = static_cast<double>(k) * period;
+  for (std::size_t m = 0; m < delay_.size(); ++m) {
+    const double change =
+        drift_[m] == 0.0 ? std::fmod(delay_[m], period) : next_command(delay_[m], drift_[m], begins, period);
+    if (change > 1e-12 && change < period) {
       ends.push_back(change);
     }
   }
@@ -193,7 +202,9 @@ void Machine::advance(State& x, const Eigen::MatrixXd& commands, Eigen::Index k,
     }
     Vector held = commands.col(k);
     for (Eigen::Index m = 0; m < held.size(); ++m) {
-      const double back = (0.5 * (from + to) - delay_[static_cast<std::size_t>(m)]) / period;
+      const auto i = static_cast<std::size_t>(m);
+      const double middle = 0.5 * (from + to);
+      const double back = (middle - delay_[i] - drift_[i] * (begins + middle)) / period;
       const Eigen::Index then = k + static_cast<Eigen::Index>(std::floor(back));
       held[m] = commands(m, std::max<Eigen::Index>(then, 0));
     }

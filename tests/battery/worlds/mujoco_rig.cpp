@@ -251,11 +251,13 @@ void add_forces(const mjModel* /*model*/, mjData* data) {
 /// Commands over a sample as the motors feel them.
 class Delivery {
  public:
-  explicit Delivery(const Rig& rig) : delay_(rig.motors.size(), 0.0), lag_(rig.motors.size(), 0.0) {
+  explicit Delivery(const Rig& rig) : delay_(rig.motors.size(), 0.0), drift_(delay_), lag_(delay_) {
     for (const Hidden& e : rig.effects) {
       for (std::size_t i = 0; i < rig.motors.size(); ++i) {
         if (rig.motors[i].name == e.at) {
           delay_[i] += e.effect == "command_delay" ? e["delay"] : 0.0;
+          delay_[i] += e.effect == "clock_drift" ? e["offset"] : 0.0;
+          drift_[i] += e.effect == "clock_drift" ? e["drift"] : 0.0;
           lag_[i] += e.effect == "actuator_lag" ? e["time_constant"] : 0.0;
         }
       }
@@ -265,7 +267,8 @@ class Delivery {
   void deliver(const Eigen::MatrixXd& given, double t, double period, Vector& u) {
     for (Eigen::Index m = 0; m < u.size(); ++m) {
       const auto i = static_cast<std::size_t>(m);
-      const double back = (t + 0.5 * kStep - delay_[i]) / period;
+      const double now = t + 0.5 * kStep;
+      const double back = (now - delay_[i] - drift_[i] * now) / period;
       const double held = given(m, std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::floor(back))));
       // The lag's own solution for a held command, at the middle of the step.
       u[m] = lag_[i] <= 0.0 || begun_ == 0 ? held : held + (u[m] - held) * std::exp(-kStep / lag_[i]);
@@ -274,7 +277,7 @@ class Delivery {
   }
 
  private:
-  std::vector<double> delay_, lag_;
+  std::vector<double> delay_, drift_, lag_;
   long begun_ = 0;
 };
 

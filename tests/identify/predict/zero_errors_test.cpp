@@ -31,6 +31,39 @@ TEST(ZeroErrors, BeginWhereTheFootHasStood) {
   EXPECT_EQ(model.effects.back().values.front().uncertainty, 0.03);
 }
 
+// A gyroscope's three components share one law, and only what was stated is free.
+TEST(ZeroErrors, OfAGyroscopeAreItsBias) {
+  model::Model model = test::hopper();
+  for (int axis = 0; axis < 3; ++axis) {
+    model::Sensor sensor;
+    sensor.group = "gyro";
+    sensor.name = std::string("gyro_") + "xyz"[axis];
+    sensor.reading = model::PointReading::gyroscope;
+    sensor.axis = axis;
+    sensor.body = static_cast<int>(model.skeleton.bodies.size()) - 1;
+    sensor.noise = 0.01;
+    model.sensors.push_back(sensor);
+  }
+  Data data({test::hopper_trial(test::hopper(), "bounce")}, {});
+  Trial& trial = data.trials.front();
+  for (const char* name : {"gyro_x", "gyro_z"}) {
+    Measured channel = trial.measured.front();
+    channel.sensor = name;
+    channel.values.setZero();
+    channel.offset_uncertainty = 0.02;
+    trial.measured.push_back(channel);
+  }
+  const std::size_t before = model.effects.size();
+  const model::Model with = with_zero_errors(model, data);
+  ASSERT_EQ(with.effects.size(), before + 1);
+  EXPECT_EQ(with.effects.back().label(), "imu_bias at gyro");
+  ASSERT_EQ(with.effects.back().values.size(), 3U);
+  EXPECT_EQ(with.effects.back().values[0].uncertainty, 0.02);
+  EXPECT_EQ(with.effects.back().values[1].uncertainty, 0.0);
+  EXPECT_EQ(with.effects.back().values[2].uncertainty, 0.02);
+  EXPECT_EQ(with_zero_errors(with, data).effects.size(), before + 1);
+}
+
 /// MABEL's hops 31 and 32 as the robot's sensors recorded them.
 class MeasuredHops : public testing::Test {
  protected:

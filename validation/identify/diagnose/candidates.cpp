@@ -5,8 +5,11 @@
 #include <limits>
 
 #include "contact/ground_change.h"
+#include "simulator/effects/inertial_sensor_law.h"
 #include "simulator/effects/parameters.h"
+#include "simulator/model/places.h"
 #include "simulator/model/planar_base.h"
+#include "validation/identify/diagnose/inertial_places.h"
 #include "validation/identify/diagnose/physical_limits.h"
 #include "validation/identify/diagnose/rates.h"
 
@@ -146,7 +149,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> joined_places(mode
             [](Place a, Place b) { return a == Place::motor && b != Place::motor; });
   for (const Place place : order) {
     *type = place;
-    for (const std::string& at : plant.model().places(place)) {
+    for (const std::string& at : model::places_of(plant.model(), law, place)) {
       if (place != Place::coordinate && place != Place::motor) {
         joined.push_back({at, {}});
         continue;
@@ -285,7 +288,10 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
     Place place = Place::coordinate;
     for (const auto& [at, same] : joined_places(plant, *law, &place)) {
       place = model.resolve(*law, at);
-      if (place == Place::sensor && !is_measured(pool.data().trials, at)) {
+      const bool is_inertial = dynamic_cast<const effects::InertialSensorLaw*>(law.get()) != nullptr;
+      const std::vector<Trial>& trials = pool.data().trials;
+      if (is_inertial ? !is_recorded_inertial(model, trials, at)
+                      : place == Place::sensor && !is_measured(trials, at)) {
         continue;
       }
       if (place == Place::contact_switch && !is_recorded(pool.data().trials, at)) {
@@ -300,6 +306,9 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
       Candidate candidate{law, place, at, same, {}};
       if (place == Place::coordinate || place == Place::motor || place == Place::ratio) {
         candidate.scales = motions.at(place, at);
+      } else if (is_inertial) {
+        candidate.scales.position = largest_reading(model, trials, at);
+        candidate.without_effect = unseen_parameters(model, trials, candidate);
       } else if (place == Place::sensor) {
         const model::Sensor& sensor = *model.find_sensor(at);
         candidate.scales = motions.at(Place::coordinate, sensor.measures);

@@ -17,11 +17,12 @@ const std::vector<std::vector<std::string>>& families() {
       {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
        "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
       {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
-      {"actuator_lag", "current_loop", "command_delay", "winding"},
+      {"actuator_lag", "current_loop", "command_delay", "clock_drift", "winding"},
       {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
       {"cable_stretch", "backlash", "harmonic_drive", "slipping_coupling"},
       {"cogging", "torque_ripple"},
-      {"encoder_offset", "encoder_scale", "encoder_eccentricity", "sensor_lag"}};
+      {"encoder_offset", "encoder_scale", "encoder_eccentricity", "sensor_lag"},
+      {"imu_bias", "imu_scale", "imu_misalignment"}};
   return kFamilies;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/integrate/command_clock.h"
 #include "simulator/model/asked_torque.h"
 #include "simulator/sensing/low_pass.h"
 
@@ -67,7 +68,9 @@ model::Model without_limits(model::Model model) {
 }
 
 Eigen::MatrixXd arrived_commands(const model::Plant& plant, const Trial& trial) {
-  const Eigen::MatrixXd sent = command_samples(plant.model(), trial.commands, trial.samples());
+  const Eigen::MatrixXd sent =
+      integrate::on_clock_of_measurements(command_samples(plant.model(), trial.commands, trial.samples()),
+                                          trial.period, integrate::command_clocks(plant));
   Eigen::MatrixXd u = sent;
   for (int m = 0; m < plant.motors(); ++m) {
     const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));

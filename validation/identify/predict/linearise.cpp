@@ -2,11 +2,51 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/model/inertial_tangent.h"
+#include "validation/identify/predict/clock_slopes.h"
 #include "validation/identify/predict/plate_slopes.h"
 #include "validation/identify/predict/sensitivity.h"
 #include "validation/identify/predict/windows.h"
 
 namespace plumbline::validation {
+namespace {
+
+std::vector<model::ParameterId> ids_of(const std::vector<FreeParameter>& parameters) {
+  std::vector<model::ParameterId> ids;
+  for (const FreeParameter& parameter : parameters) {
+    ids.push_back(parameter.id);
+  }
+  return ids;
+}
+
+/// By how much each parameter is moved for its slope: relative to its value, but a value next to nothing must
+/// not make the step vanish in it.
+Eigen::VectorXd steps_of_slopes(const model::Plant& plant, const std::vector<FreeParameter>& parameters) {
+  constexpr double kNothing = 1e-3;
+  Eigen::VectorXd steps(static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index p = 0; p < steps.size(); ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const double here = plant.value(parameter.id);
+    const double reference = std::isfinite(here) ? std::abs(here) : 0.0;
+    steps[p] = 1e-6 * (reference > kNothing * parameter.typical ? reference : parameter.typical);
+    if (here + steps[p] > parameter.upper) {
+      steps[p] = -steps[p];
+    }
+  }
+  return steps;
+}
+
+/// Slopes of the sensors by states, then parameters, as those of a sample's channels in floors.
+void write_rows(const Eigen::MatrixXd& slopes, const std::vector<int>& sensor_of_channel,
+                const Eigen::VectorXd& floors, Eigen::Index first, Linearisation& out) {
+  for (Eigen::Index c = 0; c < floors.size(); ++c) {
+    const int s = sensor_of_channel[static_cast<std::size_t>(c)];
+    out.Jx.row(first + c) = slopes.row(s).head(out.Jx.cols()) / floors[c];
+    out.Jp.row(first + c) = slopes.row(s).tail(out.Jp.cols()) / floors[c];
+  }
+}
+
+}  // namespace
 
 // Linearisation over a piece, which is in sample k of the window: at the middle of its states, under the
 // sample's mean command. The rigid parts are those of the sample's first piece. Held longer they seem to tell
@@ -24,6 +64,7 @@ void Predictor::tangent_at(const Window& window, Eigen::Index k, const Piece& pi
   plant_.tangent({middle.data(), change.data(), command.data(), slope.data(), length_of(piece), trial_.period,
                   is_behind_jump(piece.from)},
                  ids, steps, is_first, A, B);
+  clock_slopes(plant_, command_samples_, window.first + k, trial_.period, middle, command, ids, B);
 }
 
 // Along the predicted motion, piece by piece (pieces_of). A compliant ground's force begins and ends at zero,
@@ -43,20 +84,8 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   out.r = residual(window, x0);
   const Eigen::Index nx = plant_.states();
   const auto np = static_cast<Eigen::Index>(parameters.size());
-  std::vector<model::ParameterId> ids;
-  Eigen::VectorXd steps(np);
-  for (Eigen::Index p = 0; p < np; ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    ids.push_back(parameter.id);
-    const double here = plant_.value(parameter.id);
-    // Relative to the value, but a value next to nothing must not make the step vanish in it.
-    constexpr double kNothing = 1e-3;
-    const double reference = std::isfinite(here) ? std::abs(here) : 0.0;
-    steps[p] = 1e-6 * (reference > kNothing * parameter.typical ? reference : parameter.typical);
-    if (here + steps[p] > parameter.upper) {
-      steps[p] = -steps[p];
-    }
-  }
+  const std::vector<model::ParameterId> ids = ids_of(parameters);
+  const Eigen::VectorXd steps = steps_of_slopes(plant_, parameters);
   out.Jx.setZero(out.r.size(), nx);
   out.Jp.setZero(out.r.size(), np);
   Sensitivity sensitivity(Eigen::MatrixXd::Identity(nx, nx + np));
@@ -76,6 +105,8 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
   Eigen::MatrixXd B;
   Eigen::MatrixXd C;
   Eigen::MatrixXd D;
+  const bool with_inertial = model::is_any_inertial(plant_.model(), ids);
+  Eigen::VectorXd readings(plant_.sensors());
   const std::vector<Crossing> crossings = crossings_of(window);
   PlateSlopes plates(plant_, ids, steps);
   Eigen::MatrixXd forces;
@@ -87,6 +118,10 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     const double* command = command_of_reading(window, k);
     plant_.output_jacobian(states_.col(node).data(), C, command);
     plant_.output_tangent(states_.col(node).data(), ids, steps, D);
+    if (with_inertial) {
+      read_sensors(window, k, readings);
+      model::add_inertial_tangent(plant_, readings, ids, steps, D);
+    }
     Eigen::MatrixXd slopes = C * S.topRows(C.cols());
     slopes.rightCols(np) += D;
     if (accelerometers_ && window.count > 1) {
@@ -102,12 +137,7 @@ Linearisation Predictor::linearise(const Window& window, const Eigen::VectorXd& 
     if (plates.any()) {
       slopes += forces;  // a sensor's row is zero in one of the two
     }
-    for (int c = 0; c < channels(); ++c) {
-      const int s = sensor_of_channel_[static_cast<std::size_t>(c)];
-      const Eigen::Index row = k * channels() + c;
-      out.Jx.row(row) = slopes.row(s).head(nx) / floors_[c];
-      out.Jp.row(row) = slopes.row(s).tail(np) / floors_[c];
-    }
+    write_rows(slopes, sensor_of_channel_, floors_, k * channels(), out);
     if (k == held_from_) {
       break;
     }

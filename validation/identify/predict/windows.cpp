@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "simulator/integrate/command_clock.h"
 #include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
 #include "validation/identify/predict/jump_ode.h"
@@ -87,7 +88,12 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
 }
 
 void Predictor::refresh_commands() {
-  commands_ = std::make_unique<integrate::HeldCommands>(command_samples_, trial_.period, plant_.delays());
+  const std::vector<effects::ClockError> clocks = integrate::command_clocks(plant_);
+  commands_ = std::make_unique<integrate::HeldCommands>(
+      integrate::is_any_wrong(clocks)
+          ? integrate::on_clock_of_measurements(command_samples_, trial_.period, clocks)
+          : command_samples_,
+      trial_.period, plant_.delays());
 }
 
 Eigen::MatrixXd Predictor::measured_positions() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulator/effects/catalogue.h"
+#include "simulator/model/inertial_sensors.h"
 #include "validation/identify/predict/foot_paths.h"
 #include "validation/identify/predict/standing_feet.h"
 
@@ -20,7 +21,37 @@ struct ZeroError {
   double deviation = 0.0;
 };
 
-/// Of the sensors that have no encoder_offset yet.
+/// The law of a sensor's zero, and where it sits: an inertial sensor's three components share one.
+struct ZeroLaw {
+  std::string name, at;
+};
+
+ZeroLaw zero_law(const model::Model& model, const std::string& sensor) {
+  const model::Sensor* known = model.find_sensor(sensor);
+  const bool is_inertial = known != nullptr && model::is_inertial(*known);
+  return is_inertial ? ZeroLaw{"imu_bias", known->group} : ZeroLaw{"encoder_offset", sensor};
+}
+
+bool is_use(const model::EffectUse& use, const ZeroLaw& law) {
+  return use.law->declaration().name == law.name && use.at == law.at;
+}
+
+/// The effect of this law among those from `first` on, added at its null values where there is none.
+model::EffectUse& use_of(const ZeroLaw& law, std::size_t first, model::Model& model) {
+  for (std::size_t e = first; e < model.effects.size(); ++e) {
+    if (is_use(model.effects[e], law)) {
+      return model.effects[e];
+    }
+  }
+  model::EffectUse use;
+  use.law = effects::Catalogue::all().find(law.name);
+  use.at = law.at;
+  use.values.resize(static_cast<std::size_t>(use.law->parameter_count()));
+  model.effects.push_back(std::move(use));
+  return model.effects.back();
+}
+
+/// Of the sensors that have no such law yet.
 std::vector<ZeroError> stated_in(const std::vector<Trial>& trials, const model::Model& model) {
   std::map<std::string, double> stated;
   for (const Trial& trial : trials) {
@@ -34,9 +65,8 @@ std::vector<ZeroError> stated_in(const std::vector<Trial>& trials, const model::
   std::vector<ZeroError> errors;
   for (const auto& [sensor, deviation] : stated) {
     const bool is_known =
-        std::any_of(model.effects.begin(), model.effects.end(), [&, name = sensor](const auto& use) {
-          return use.law->declaration().name == "encoder_offset" && use.at == name;
-        });
+        std::any_of(model.effects.begin(), model.effects.end(),
+                    [&, law = zero_law(model, sensor)](const auto& use) { return is_use(use, law); });
     if (!is_known) {
       errors.push_back({sensor, deviation});
     }
@@ -46,16 +76,14 @@ std::vector<ZeroError> stated_in(const std::vector<Trial>& trials, const model::
 
 model::Model with_offsets(model::Model model, const std::vector<ZeroError>& errors,
                           const Eigen::VectorXd& offsets) {
+  const std::size_t first = model.effects.size();
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    model::EffectUse use;
-    use.law = effects::Catalogue::all().find("encoder_offset");
-    use.at = errors[i].sensor;
-    model::Quantity quantity;
+    const ZeroLaw law = zero_law(model, errors[i].sensor);
+    const int axis = law.at == errors[i].sensor ? 0 : model.find_sensor(errors[i].sensor)->axis;
+    model::Quantity& quantity = use_of(law, first, model).values[static_cast<std::size_t>(axis)];
     quantity.value = offsets[static_cast<Eigen::Index>(i)];
     quantity.uncertainty = errors[i].deviation;
     quantity.source = "offset_uncertainty of the trials";
-    use.values.push_back(quantity);
-    model.effects.push_back(std::move(use));
   }
   return model;
 }
@@ -98,7 +126,7 @@ Eigen::VectorXd offsets_on_ground(const model::Model& model, const std::vector<Z
     }
   }
   if (feet.empty()) {
-    return none;
+    return Eigen::VectorXd::Zero(count);
   }
   const auto stood = static_cast<Eigen::Index>(feet.size());
   Eigen::MatrixXd J(stood, count);  // by offsets in units of their deviations

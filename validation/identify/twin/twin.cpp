@@ -5,6 +5,7 @@
 #include <random>
 #include <sstream>
 
+#include "simulator/integrate/command_clock.h"
 #include "simulator/run/commanded_run.h"
 #include "simulator/sensing/encoder.h"
 #include "simulator/trace/error.h"
@@ -195,6 +196,10 @@ Trial twin(const model::Model& model, const Experiment& experiment, const TwinOp
   const run::SampledController control = [&](Eigen::Index k, double, const Eigen::VectorXd& y,
                                              double* command) { loops.command(k, y, command); };
   const bool closed = !trial.controllers.empty();
+  if (closed && integrate::is_any_wrong(integrate::command_clocks(plant))) {
+    throw InputError({experiment.file, 0, "controllers"}, "a controller, and clock_drift in the model",
+                     "commands alone: a clock's error is one of recorded commands");
+  }
   const run::CommandedRun result =
       run::run_commands(plant, x0, command_samples(model, experiment.commands, experiment.time.size()),
                         experiment.period, 0.0, closed ? control : run::SampledController(), &sensors, run);

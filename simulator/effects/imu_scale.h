@@ -1,0 +1,24 @@
+// An inertial sensor whose scale factors are wrong.
+#pragma once
+
+#include <vector>
+
+#include "simulator/effects/inertial_sensor_law.h"
+
+namespace plumbline::effects {
+
+/// reading = diag(x, y, z) actual                  [rad/s of a gyroscope, m/s^2 of an accelerometer]
+/// The scale factor of each axis, in the sensor's axes. Above 0; null at 1. A sensor has no power.
+/// Source: Titterton and Weston, Strapdown Inertial Navigation Technology (2nd edition, 2004), chapter 8
+/// (calibration and compensation); Tedaldi, Pretto and Menegatti, IEEE Int. Conf. Robotics and Automation
+/// (2014), section III.
+class ImuScale final : public InertialSensorLaw {
+ public:
+  const Declaration& declaration() const override;
+  Values typical(const Scales& scales) const override;
+  std::vector<Values> starts(const Scales& scales) const override;
+
+  InertialReading inertial_reading(const double* p) const override;
+};
+
+}  // namespace plumbline::effects
