@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/studies/spring_mass/angles.h"
+
 namespace plumbline::spring_mass {
 namespace {
 
 constexpr double left = 70.0, right = 620.0, top = 40.0, bottom = 430.0;
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 /// A range of one axis, a little wider than the data.
 struct Range {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "validation/studies/spring_mass/angles.h"
+
 namespace plumbline::spring_mass {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// From one angle to the other the short way, so that a deflection of 179 degrees and one of -179 are
 /// neighbours.

@@ -11,11 +11,10 @@
 #include <thread>
 
 #include "simulator/trace/error.h"
+#include "validation/studies/spring_mass/angles.h"
 
 namespace plumbline::spring_mass {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 SensitivityRow row(const std::string& parameter, const std::string& value, double Disturbance::*what,
                    double size) {

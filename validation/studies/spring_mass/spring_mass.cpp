@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "validation/studies/spring_mass/angles.h"
+
 namespace plumbline::spring_mass {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Eigen::Vector3d acceleration(const Body& body, const Eigen::Vector3d& leg) {
   const double pull = body.stiffness / body.mass * (body.rest_length / leg.norm() - 1.0);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <random>
 
+#include "validation/studies/spring_mass/angles.h"
+
 namespace plumbline::spring_mass {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A well-mixed number in [0, 1) from three integers (SplitMix64).
 double mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
