@@ -4,6 +4,28 @@
 #include <cmath>
 
 namespace plumbline::integrate {
+namespace {
+
+/// Of a command within a sample: what it is before, by how much it jumps, after which part of the sample.
+struct Jump {
+  double before = 0.0, size = 0.0, part = 0.0;
+};
+
+// Command j takes effect at the instant t at which t - offset - drift (t - t_0) = j period. Late by w whole
+// samples and a part of one, for the part r of sample k the command k - w - 1 still holds.
+Jump jump_in(const Eigen::MatrixXd& samples, Eigen::Index motor, Eigen::Index k, double period,
+             const effects::ClockError& clock) {
+  const double late = clock.offset / period + clock.drift * static_cast<double>(k);
+  const double whole = std::clamp(std::floor(late), -1e9, 1e9);  // no record is as long
+  const auto given = [&](double behind) {
+    const double at =
+        std::clamp(static_cast<double>(k) - whole - behind, 0.0, static_cast<double>(samples.cols() - 1));
+    return samples(motor, static_cast<Eigen::Index>(at));
+  };
+  return {given(1.0), given(0.0) - given(1.0), std::min(1.0, (late - whole) / (1.0 - clock.drift))};
+}
+
+}  // namespace
 
 std::vector<effects::ClockError> command_clocks(const model::Plant& plant) {
   const model::Model& model = plant.model();
@@ -30,19 +52,16 @@ bool is_any_wrong(const std::vector<effects::ClockError>& clocks) {
                      [](const effects::ClockError& one) { return one.offset != 0.0 || one.drift != 0.0; });
 }
 
-// Late by w whole samples and a part r of one: for the part r of the sample the command before still holds.
 ClockedCommand clocked_command(const Eigen::MatrixXd& samples, Eigen::Index motor, Eigen::Index k,
                                double period, const effects::ClockError& clock) {
-  const double middle = (static_cast<double>(k) + 0.5) * period;
-  const double late = (clock.offset + clock.drift * middle) / period;
-  const double whole = std::clamp(std::floor(late), -1e9, 1e9);  // no record is as long
-  const auto given = [&](double behind) {
-    const double at =
-        std::clamp(static_cast<double>(k) - whole - behind, 0.0, static_cast<double>(samples.cols() - 1));
-    return samples(motor, static_cast<Eigen::Index>(at));
-  };
-  const double part = late - whole;
-  return {(1.0 - part) * given(0.0) + part * given(1.0), (given(1.0) - given(0.0)) / period};
+  const Jump here = jump_in(samples, motor, k, period, clock);
+  const Jump last = jump_in(samples, motor, k - 1, period, clock);
+  const double pulse = 0.5 * here.part * (1.0 - here.part) * here.size;
+  const double back = 0.5 * last.part * (1.0 - last.part) * last.size;
+  const double change =
+      -here.size - (0.5 - here.part) * here.size + (0.5 - last.part) * last.size;  // with the part
+  return {here.before + (1.0 - here.part) * here.size - pulse + back, change / (period * (1.0 - clock.drift)),
+          (static_cast<double>(k) + here.part) * period};
 }
 
 Eigen::MatrixXd on_clock_of_measurements(const Eigen::MatrixXd& samples, double period,
@@ -54,7 +73,7 @@ Eigen::MatrixXd on_clock_of_measurements(const Eigen::MatrixXd& samples, double 
       continue;
     }
     for (Eigen::Index k = 0; k < samples.cols(); ++k) {
-      moved(m, k) = clocked_command(samples, m, k, period, clock).mean;
+      moved(m, k) = clocked_command(samples, m, k, period, clock).held;
     }
   }
   return moved;

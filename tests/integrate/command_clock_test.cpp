@@ -25,23 +25,24 @@ Eigen::MatrixXd ramp(Eigen::Index samples) {
 }
 
 // Of a ramp that is held over samples, u = k on [k T, (k + 1) T), the mean over sample k is k less the
-// lateness in samples, however late it is.
+// lateness in samples, however late it is, but for what the drift changes within a sample, and between the
+// pulses of neighbouring ones: half of it each.
 TEST(CommandClock, ARampIsLateByTheDelayOfTheMoment) {
   const Eigen::MatrixXd u = ramp(2000);
   const effects::ClockError clock{2.3e-3, 4e-3};
   for (const Eigen::Index k : {50, 300, 1234}) {
     const double late = clock.offset + clock.drift * (static_cast<double>(k) + 0.5) * kPeriod;
     const ClockedCommand command = clocked_command(u, 0, k, kPeriod, clock);
-    EXPECT_NEAR(command.mean, static_cast<double>(k) - late / kPeriod, 1e-9) << k;
-    EXPECT_NEAR(command.slope, -1.0 / kPeriod, 1e-9) << k;
+    EXPECT_NEAR(command.held, static_cast<double>(k) - late / kPeriod, clock.drift) << k;
+    EXPECT_NEAR(command.slope, -1.0 / kPeriod, 2.1 * clock.drift / kPeriod) << k;
   }
 }
 
 TEST(CommandClock, ACommandMayComeEarly) {
   const ClockedCommand command = clocked_command(ramp(100), 0, 50, kPeriod, {-0.4e-3, 0.0});
-  EXPECT_NEAR(command.mean, 50.4, 1e-12);
-  EXPECT_NEAR(clocked_command(ramp(100), 0, 99, kPeriod, {-5e-3, 0.0}).mean, 99.0, 0.0) << "the last holds";
-  EXPECT_NEAR(clocked_command(ramp(100), 0, 0, kPeriod, {5e-3, 0.0}).mean, 0.0, 0.0) << "the first holds";
+  EXPECT_NEAR(command.held, 50.4, 1e-12);
+  EXPECT_NEAR(clocked_command(ramp(100), 0, 99, kPeriod, {-5e-3, 0.0}).held, 99.0, 0.0) << "the last holds";
+  EXPECT_NEAR(clocked_command(ramp(100), 0, 0, kPeriod, {5e-3, 0.0}).held, 0.0, 0.0) << "the first holds";
 }
 
 TEST(CommandClock, ARightClockChangesNothing) {
@@ -80,7 +81,7 @@ model::Model wheel(const test::TemporaryFolder& folder, const std::string& drift
 
 // A torque that is commanded from t_1 on accelerates a free wheel from the instant t at which
 // t - offset - drift t = t_1, that is t = (t_1 + offset)/(1 - drift): its angle at the end T is
-// u/(2 J) (T - t)^2. Within the sample in which it begins the torque is its mean.
+// u/(2 J) (T - t)^2.
 TEST(CommandClock, AStepBeginsWhenItsClockSays) {
   const test::TemporaryFolder folder;
   for (const double drift : {0.02, -0.02}) {
@@ -96,9 +97,23 @@ TEST(CommandClock, AStepBeginsWhenItsClockSays) {
     EXPECT_EQ(run.commands, commands) << "what is recorded is what was commanded";
     const double begins = (0.6 + 0.004) / (1.0 - drift);
     const double angle = 0.5 / (2.0 * 0.02) * std::pow(1.0 - begins, 2);
-    // Of the instant drift T/2 = 1e-5 s, of the torque's mean u/J T^2/8 = 3e-6 rad.
-    EXPECT_NEAR(run.outputs(0, kSamples - 1), angle, 0.5 / 0.02 * (1.0 - begins) * 1e-5 + 3.2e-6) << drift;
+    EXPECT_NEAR(run.outputs(0, kSamples - 1), angle, 1e-8) << drift;
   }
+}
+
+// Also as far as a jump in the midst of a sample: with a constant lateness of 4.3 samples there is no error
+// of the instant, and the angle is that of the exact motion to the integrator's.
+TEST(CommandClock, AJumpMovesAsFarAsItDoesInTheMidstOfASample) {
+  const test::TemporaryFolder folder;
+  model::Plant plant(wheel(folder, "0"), {});
+  plant.set_value({0, 0}, 4.3e-3);
+  Eigen::MatrixXd commands = Eigen::MatrixXd::Zero(1, 201);
+  commands.rightCols(101).setConstant(0.5);
+  run::CommandedOptions options;
+  options.integrator.set_tolerance(1e-12);
+  const run::CommandedRun run =
+      run::run_commands(plant, Eigen::Vector2d::Zero(), commands, kPeriod, 0.0, {}, nullptr, options);
+  EXPECT_NEAR(run.outputs(0, 200), 0.5 / (2.0 * 0.02) * std::pow(0.1 - 0.0043, 2), 1e-10);
 }
 
 // A controller gives its commands when they are needed.

@@ -23,12 +23,12 @@ Eigen::VectorXd slope_by_command(model::Plant& plant, const Eigen::VectorXd& x, 
   return (up - down) / (2.0 * step);
 }
 
-/// d(late)/d(parameter) in the middle of sample k; clock laws are linear in their parameters.
-double lateness_slope(const effects::ClockLaw& law, int parameter, Eigen::Index k, double period) {
+/// d(late)/d(parameter) at a time after the record's beginning; clock laws are linear in their parameters.
+double lateness_slope(const effects::ClockLaw& law, int parameter, double since) {
   effects::Values unit(static_cast<std::size_t>(law.parameter_count()), 0.0);
   unit[static_cast<std::size_t>(parameter)] = 1.0;
   const effects::ClockError clock = law.clock(unit.data());
-  return clock.offset + clock.drift * (static_cast<double>(k) + 0.5) * period;
+  return clock.offset + clock.drift * since;
 }
 
 }  // namespace
@@ -37,6 +37,7 @@ void clock_slopes(model::Plant& plant, const Eigen::MatrixXd& commands, Eigen::I
                   const Eigen::VectorXd& x, const Eigen::VectorXd& command,
                   const std::vector<model::ParameterId>& parameters, Eigen::MatrixXd& B) {
   int known = -1;
+  double since = 0.0;
   Eigen::VectorXd by_late;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const model::EffectUse& use = plant.model().effects[static_cast<std::size_t>(parameters[p].effect)];
@@ -46,13 +47,13 @@ void clock_slopes(model::Plant& plant, const Eigen::MatrixXd& commands, Eigen::I
     }
     const int motor = plant.model().motor_index(use.at);
     if (motor != known) {
-      const auto clocks = integrate::command_clocks(plant);
-      const effects::ClockError& clock = clocks[static_cast<std::size_t>(motor)];
-      by_late = slope_by_command(plant, x, command, motor) *
-                integrate::clocked_command(commands, motor, k, period, clock).slope;
+      const effects::ClockError clock = integrate::command_clocks(plant)[static_cast<std::size_t>(motor)];
+      const integrate::ClockedCommand at = integrate::clocked_command(commands, motor, k, period, clock);
+      by_late = slope_by_command(plant, x, command, motor) * at.slope;
+      since = at.since;
       known = motor;
     }
-    B.col(static_cast<Eigen::Index>(p)) = by_late * lateness_slope(*law, parameters[p].parameter, k, period);
+    B.col(static_cast<Eigen::Index>(p)) = by_late * lateness_slope(*law, parameters[p].parameter, since);
   }
 }
 

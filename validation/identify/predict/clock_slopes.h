@@ -13,7 +13,7 @@ namespace plumbline::validation {
 /// command u of a motor is late,
 ///   d(rate)/dp = d(rate)/du du/d(late) d(late)/dp,
 /// the first factor by central differences at the state x under the mean command of the sample, the second
-/// from the record. Their mean over the sample is exact; where in it a command changes is not in it.
+/// that of clocked_command().
 void clock_slopes(model::Plant& plant, const Eigen::MatrixXd& commands, Eigen::Index k, double period,
                   const Eigen::VectorXd& x, const Eigen::VectorXd& command,
                   const std::vector<model::ParameterId>& parameters, Eigen::MatrixXd& B);

@@ -13,6 +13,7 @@ namespace {
 
 std::vector<model::ParameterId> ids_of(const std::vector<FreeParameter>& parameters) {
   std::vector<model::ParameterId> ids;
+  ids.reserve(parameters.size());
   for (const FreeParameter& parameter : parameters) {
     ids.push_back(parameter.id);
   }
