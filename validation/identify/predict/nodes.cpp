@@ -80,7 +80,7 @@ bool Predictor::is_even(Eigen::Index from, Eigen::Index to, const std::vector<Cr
   for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
-    for (Eigen::Index n = from; n <= to; ++n) {
+    for (const Eigen::Index n : {from, to}) {
       const double depth = plant_.foot_depth(static_cast<int>(f), states_.col(n).data()).depth;
       least = std::min(least, depth);
       most = std::max(most, depth);
