@@ -223,8 +223,8 @@ FittedParameter judged(const FreeParameter& parameter, const Eigen::VectorXd& dr
   return fitted;
 }
 
-void set_partner(const std::vector<FreeParameter>& parameters, const Eigen::MatrixXd& draws, Eigen::Index p,
-                 FittedParameter& fitted) {
+void set_partner_by_draws(const std::vector<FreeParameter>& parameters, const Eigen::MatrixXd& draws,
+                          Eigen::Index p, FittedParameter& fitted) {
   const Eigen::VectorXd here = draws.row(p).transpose().array() - draws.row(p).mean();
   for (Eigen::Index q = 0; q < draws.rows(); ++q) {
     const Eigen::VectorXd other = draws.row(q).transpose().array() - draws.row(q).mean();
@@ -280,7 +280,7 @@ Fit fit_whole(const model::Model& model, const Data& data, std::vector<FreeParam
     FittedParameter fitted = judged(parameter, draws.row(p).transpose(), after[p], options.confidence);
     fitted.before = before[p];
     fitted.degrees_of_freedom = static_cast<double>(found.tried.front().errors.size() - 1);
-    set_partner(parameters, draws, p, fitted);
+    set_partner_by_draws(parameters, draws, p, fitted);
     add_doubts(parameter, true, options, fitted);
     result.parameters.push_back(std::move(fitted));
   }
