@@ -1,7 +1,6 @@
 // The points at which a predicted window is known: its samples, and points between them.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "validation/identify/predict/windows.h"
 
@@ -77,14 +76,18 @@ bool Predictor::is_even(Eigen::Index from, Eigen::Index to, const std::vector<Cr
                   [&](const Crossing& crossing) { return inside(crossing.node); })) {
     return false;
   }
-  for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const Eigen::Index n : {from, to}) {
-      const double depth = plant_.foot_depth(static_cast<int>(f), states_.col(n).data()).depth;
-      least = std::min(least, depth);
-      most = std::max(most, depth);
+  const auto depths_at = [&](Eigen::Index node) {  // of all feet at once: they share the kinematics
+    Eigen::ArrayXd depths(static_cast<Eigen::Index>(plant_.model().feet.size()));
+    for (Eigen::Index f = 0; f < depths.size(); ++f) {
+      depths[f] = plant_.foot_depth(static_cast<int>(f), states_.col(node).data()).depth;
     }
+    return depths;
+  };
+  const Eigen::ArrayXd before = depths_at(from);
+  const Eigen::ArrayXd behind = depths_at(to);
+  for (Eigen::Index f = 0; f < before.size(); ++f) {
+    const double least = std::min(before[f], behind[f]);
+    const double most = std::max(before[f], behind[f]);
     if (most > 0.0 && !(most - least <= kShareOfDepth * least)) {
       return false;
     }
