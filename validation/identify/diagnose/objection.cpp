@@ -6,7 +6,6 @@
 
 #include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/judged.h"
-#include "validation/identify/diagnose/longer_windows.h"
 #include "validation/identify/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -169,8 +168,7 @@ std::string refusal(const Stage& stage, const Refit& refit, const Data& data, co
     const std::string error = judged ? "held-out error" : "train error";
     return "immaterial: " + error + (fall < 0.0 ? " rises by " : " falls by only ") + percent(std::abs(fall));
   }
-  const std::string found = flaw(refit, data, policy);
-  return found.empty() ? short_lived(stage, refit, data, policy) : found;
+  return flaw(refit, data, policy);
 }
 
 std::string objection(double share, const Policy& policy) {

@@ -5,7 +5,7 @@
 namespace plumbline::validation {
 namespace {
 
-constexpr double kShareOfFloor = 0.1;  // the squares add: half a percent of an error at the floor
+constexpr double kShareOfFloor = 0.03;  // the squares add: half a thousandth of an error at the floor
 
 /// d(reading)/dx of all sensors, sensors x states. Accelerations with the slopes that implicit integrators
 /// take, which are right to some percent.

@@ -18,8 +18,8 @@ struct FlooredSensor {
 };
 
 /// Absolute tolerances of a plant's states for a window of `length` s about the state x under the command:
-/// the error of a state that makes a tenth of a floor in the channel that shows it best,
-///   d_i = 0.1 min over channels of floor / |dy/dx_i|,
+/// the error of a state that makes three hundredths of a floor in the channel that shows it best,
+///   d_i = 0.03 min over channels of floor / |dy/dx_i|,
 /// of a velocity also that which has done so after the window's whole length, d_(position)/length. An
 /// accelerometer shows every state that moves it, bristles and unmeasured positions too. A state that no
 /// channel shows keeps kRelativeTolerance/100. An integrator that is held to less resolves what no
