@@ -254,19 +254,22 @@ void Plant::foot_tangent(const FootSlot& slot, const Touch& at, const Touch& hal
     press(slot, x, minus, down_.data());
     const double per = (by_depth ? -0.5 : 0.5) / step;  // depth falls where the foot rises
     const Eigen::Vector3d force = per * (plus.force - minus.force);
-    const Eigen::VectorXd push = foot_J_.transpose() * force;
-    // By z or dz/dt, through what moves the foot in this direction by each of them.
-    const auto add = [&](Eigen::Index first, const Eigen::RowVectorXd& share) {
-      slopes_.middleCols(first, nz_).noalias() += push * share;
+    const auto add = [&](Eigen::Index column, double share) {
+      if (share == 0.0) {
+        return;
+      }
+      slopes_.col(column).noalias() += foot_J_.transpose() * (share * force);
       for (const FootSlot::Drag& use : slot.drags) {
         for (int s = use.state; s >= 0 && s < use.state + use.law->state_count(); ++s) {
-          A.row(s).segment(first, nz_) += per * (up_[s] - down_[s]) * share;
+          A(s, column) += share * per * (up_[s] - down_[s]);
         }
       }
     };
-    add(by_depth ? 0 : nz_, foot_J_.row(by_depth ? 2 : k));
-    if (!by_depth && foot_V_.cols() > 0) {
-      add(0, foot_V_.row(k));
+    for (Eigen::Index i = 0; i < nz_; ++i) {
+      add(by_depth ? i : nz_ + i, foot_J_(by_depth ? 2 : k, i));
+      if (!by_depth && foot_V_.cols() > 0) {
+        add(i, foot_V_(k, i));
+      }
     }
   }
 }
