@@ -37,8 +37,8 @@ struct NewModel {
 /// LOG_held_out (the rest). The model is read back before it gets its name. For motors commanded by a current
 /// the torque constant is assumed to be 1 N m/A; where the train trial shows by what factor the needed force
 /// follows the current (command_gains), that factor is assumed. Throws InputError, and leaves nothing behind,
-/// when the skeleton cannot be read, has no moving joint, or no root that could float as asked, a file of that name exists, or the log has no
-/// time or no column of any joint.
+/// when the skeleton cannot be read, has no moving joint, or no root that could float as asked, a file of
+/// that name exists, or the log has no time or no column of any joint.
 NewModel new_model(const NewModelWish& wish);
 
 /// docs/formats/json.md, `new-model`.

@@ -108,8 +108,8 @@ class StandingPrediction : public testing::Test {
   Eigen::MatrixXd states_;
 };
 
-// Of the joint: three hundredths of the encoder's floor, and for its rate what becomes that over the window. Heights
-// show by the accelerometer alone, because the ground presses the feet.
+// Of the joint: three hundredths of the encoder's floor, and for its rate what becomes that over the window.
+// Heights show by the accelerometer alone, because the ground presses the feet.
 TEST_F(StandingPrediction, ToleranceIsAShareOfWhatASensorShows) {
   model::Plant plant(model_, {});
   const double command = 1.5;
