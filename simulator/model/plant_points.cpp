@@ -8,11 +8,6 @@
 namespace plumbline::model {
 namespace {
 
-/// Does the reading change with positions in a way that point_rows() does not tell?
-bool is_felt(PointReading reading) {
-  return reading == PointReading::gyroscope || reading == PointReading::accelerometer;
-}
-
 /// From slopes of what inertial sensors truly feel to those of what they read, sensors x anything.
 template <typename Chains, typename Values>
 void read_slopes(const Chains& chains, const Values& values, Eigen::MatrixXd& slopes) {
@@ -122,8 +117,8 @@ void Plant::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointSlot& slot = points_[i];
     const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
-    if (!is_felt(sensor.reading)) {
-      continue;
+    if (!is_inertial(sensor)) {
+      continue;  // point_rows() tells how the others change with positions
     }
     if (i == 0 || sensor.axis == 0) {
       tree_slopes_.felt_at(slot.body, tree().station(slot.body, sensor.point), felt);

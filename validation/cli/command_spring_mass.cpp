@@ -22,7 +22,7 @@ namespace {
 
 namespace sm = plumbline::spring_mass;
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
+using sm::degree;
 
 struct Options {
   std::string scan, reference, output, law = "deadbeat", json;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/studies/spring_mass/angles.h"
-
 namespace plumbline::spring_mass {
 namespace {
 

@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "simulator/trace/error.h"
-#include "validation/studies/spring_mass/angles.h"
 
 namespace plumbline::spring_mass {
 namespace {

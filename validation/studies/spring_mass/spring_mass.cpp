@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "validation/studies/spring_mass/angles.h"
-
 namespace plumbline::spring_mass {
 namespace {
 

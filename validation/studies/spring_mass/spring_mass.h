@@ -8,6 +8,9 @@
 
 namespace plumbline::spring_mass {
 
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double degree = pi / 180.0;
+
 /// Numbers of the model. The default ones are those of Wu, "The Theory, Implementation, and Evaluation of
 /// Spring Mass Running on ATRIAS" (Carnegie Mellon University 2017), section 3.2.1: human size at about 5
 /// m/s.

@@ -5,8 +5,6 @@
 #include <optional>
 #include <random>
 
-#include "validation/studies/spring_mass/angles.h"
-
 namespace plumbline::spring_mass {
 namespace {
 
