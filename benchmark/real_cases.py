@@ -5,7 +5,7 @@ Usage: real_cases.py --data FOLDER --out DIR [--only TEXT]
 
 FOLDER has a folder for each machine; README.md says where its files come from. A machine whose files are not there is left out, and said.
 Nothing recorded is part of this repository. What a truth rests on stands in truth.json ("source"), and what says the same in other names
-("also_right"). All three machines have one joint; numbers are at the joint, so a drive's ratio is 1.
+("also_right"). The machines below have one joint, that of real_arm.py six; numbers are at the joint, so a drive's ratio is 1.
 """
 
 import argparse
@@ -19,6 +19,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from generator import files  # noqa: E402
 from generator.laws import KINDS  # noqa: E402
+from real_arm import LoadedArm  # noqa: E402
 
 AT_JOINT = files.AT_JOINTS + files.AT_DRIVES
 
@@ -180,7 +181,7 @@ def main():
     parser.add_argument("--out", required=True)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
-    for machine in (Emps, Servo, Pendulum):
+    for machine in (Emps, Servo, Pendulum, LoadedArm):
         if options.only in machine.name:
             try:
                 machine(options.data).write(options.out)

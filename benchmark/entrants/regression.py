@@ -34,11 +34,12 @@ class Problem:
         self.ratio = np.array([self.drive(j, "ratio") for j in self.joints])
         self.reflected = np.array([self.drive(j, "rotor_inertia") for j in self.joints]) * self.ratio ** 2
         self.damping = np.array([self.drive(j, "joint_damping") for j in self.joints])
+        self.dry = np.array([self.drive(j, "joint_friction") for j in self.joints])
         self.springs = [(self.joints.index(s["joint"]), s["stiffness"]["value"], s["rest"]["value"])
                         for s in self.case.about["springs"]]
 
     def drive(self, joint, key):
-        return self.case.drives[joint][key]["value"] if joint in self.case.drives else 0.0
+        return self.case.drives.get(joint, {}).get(key, {"value": 0.0})["value"]
 
     def raw_positions(self, table):
         """By joint: its own sensor, or its motor's. And their floors."""
@@ -98,7 +99,7 @@ class Problem:
 
     def stated(self, m):
         """What the stated model's drives must give for this motion."""
-        out = self.chain.needed(m.q, m.v, m.a) + self.reflected * m.a + self.damping * m.v - self.ground(m)
+        out = self.chain.needed(m.q, m.v, m.a) + self.reflected * m.a + self.damping * m.v + self.dry * sign(m.v) - self.ground(m)
         for j, stiffness, rest in self.springs:
             out[:, j] += stiffness * (m.q[:, j] - rest)
         return out
@@ -184,6 +185,8 @@ def numbers_terms(problem):
         out += [(at_joint(problem, joint, lambda q, v, a, u, du: -a), n * drive["rotor_inertia"]["standard_deviation"]),
                 (at_joint(problem, joint, lambda q, v, a, u, du: u), drive["torque_gain"]["standard_deviation"]),
                 (at_joint(problem, joint, lambda q, v, a, u, du: -v), drive["joint_damping"]["standard_deviation"])]
+        if "joint_friction" in drive:
+            out.append((at_joint(problem, joint, lambda q, v, a, u, du: -sign(v)), drive["joint_friction"]["standard_deviation"]))
     for spring in about["springs"]:
         rest = spring["rest"]["value"]
         out.append((at_joint(problem, spring["joint"], lambda q, v, a, u, du, r=rest: r - q),

@@ -26,7 +26,7 @@ class Chain:
             joint = by_parent[at]
             at = joint.find("child").get("link")
             self.joints.append((joint.get("name"), joint.get("type") == "prismatic", numbers(joint.find("axis").get("xyz")),
-                                numbers(joint.find("origin").get("xyz"))))
+                                numbers(joint.find("origin").get("xyz")), from_roll_pitch_yaw(joint.find("origin").get("rpy"))))
             self.bodies.append(self.body(at, links[at].find("inertial")))
         self.names = [joint[0] for joint in self.joints]
 
@@ -43,8 +43,9 @@ class Chain:
     def poses(self, q):
         """Rotation, origin and axis of each link's frame."""
         rotation, origin, out = np.broadcast_to(np.eye(3), (len(q), 3, 3)), np.zeros((len(q), 3)), []
-        for j, (_, slides, axis, offset) in enumerate(self.joints):
+        for j, (_, slides, axis, offset, mounting) in enumerate(self.joints):
             origin = origin + rotation @ offset
+            rotation = rotation @ mounting
             world_axis = rotation @ axis
             if slides:
                 origin = origin + world_axis * q[:, j:j + 1]
@@ -64,7 +65,7 @@ class Chain:
         bodies = bodies or self.bodies
         poses, zero = self.poses(q), np.zeros((len(q), 3))
         omega, alpha, acceleration, previous, loads = zero, zero, zero - self.gravity, zero, []
-        for j, ((_, slides, _, _), body) in enumerate(zip(self.joints, bodies)):
+        for j, ((_, slides, *_), body) in enumerate(zip(self.joints, bodies)):
             rotation, origin, axis = poses[j]
             arm = origin - previous
             acceleration = acceleration + cross(alpha, arm) + cross(omega, cross(omega, arm))
@@ -109,6 +110,13 @@ def cross(one, other):
 
 def times(matrices, vectors):
     return np.einsum("tij,tj->ti", matrices, vectors)
+
+
+def from_roll_pitch_yaw(text):
+    """Of a URDF's origin: turns about the fixed x, y and z axes, in this order."""
+    roll, pitch, yaw = numbers(text) if text else np.zeros(3)
+    x, y, z = (turn(axis, np.array([angle]))[0] for axis, angle in zip(np.eye(3), (roll, pitch, yaw)))
+    return z @ y @ x
 
 
 def turn(axis, angles):

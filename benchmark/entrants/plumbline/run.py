@@ -85,6 +85,10 @@ def effect_lines(case):
         damping, square = drive["joint_damping"], drive["ratio"]["value"] ** 2
         value = number(damping["value"] / square, "N m s/rad", damping["standard_deviation"] / square)
         lines.append(f"  - {{effect: viscous, at: {joint}_motor, values: {{damping: {value}}}}}")
+        if "joint_friction" in drive:
+            dry, ratio = drive["joint_friction"], drive["ratio"]["value"]
+            level = number(dry["value"] / ratio, "N m", dry["standard_deviation"] / ratio)
+            lines.append(f"  - {{effect: coulomb, at: {joint}_motor, values: {{level: {level}, smoothing_speed: {number(0.01 * ratio, 'rad/s')}}}}}")
     for spring in case.about["springs"]:
         stiffness, rest = spring["stiffness"], spring["rest"]
         lines.append(f"  - {{effect: spring, at: {spring['joint']}, values: {{"

@@ -49,7 +49,7 @@ VALUES = {"viscous_friction": "damping", "coulomb_friction": "level", "quadratic
 
 def library_of(problem, joint):
     """[(kind, place, term)] of one joint."""
-    terms, (_, slides, _, _) = list(LIBRARY), problem.chain.joints[problem.joints.index(joint)]
+    terms, (_, slides, *_) = list(LIBRARY), problem.chain.joints[problem.joints.index(joint)]
     terms += DRIVEN if joint in problem.case.drives else []
     terms += [] if slides else TURNING
     link = problem.chain.bodies[problem.joints.index(joint)]["name"]

@@ -70,27 +70,36 @@ TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
   EXPECT_LT(alone.estimate.scores.held_out, 1.1);
 }
 
+struct Screened {
+  std::vector<Candidate> candidates;
+  std::vector<Hypothesis> starts;
+};
+
+/// All candidates of the laws, and all starts of each.
+Screened candidates_of(const Stage& stage, const Data& data, const std::set<std::string>& laws) {
+  Screened all;
+  PredictorPool pool(stage.model, data);
+  all.candidates = list_candidates(pool, some_laws(laws), {}, stage.estimate);
+  for (std::size_t c = 0; c < all.candidates.size(); ++c) {
+    for (const effects::Values& start : all.candidates[c].law->starts(all.candidates[c].scales)) {
+      Hypothesis hypothesis;
+      hypothesis.candidate = static_cast<int>(c);
+      hypothesis.start = start;
+      all.starts.push_back(hypothesis);
+    }
+  }
+  return all;
+}
+
 TEST(Tangents, PromiseMostForThePairThatIsHidden) {
   const model::Model bare = bench();
   const Data data =
       bench_twins({"hardening@leg_angle:cubic_stiffness=3", "coulomb@mLS:level=0.003"}).thinned(8);
   const Stage stage = as_given(bare, data);
-  std::vector<Candidate> candidates;
-  {
-    PredictorPool pool(bare, data);
-    candidates = list_candidates(
-        pool, some_laws({"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"}), {},
-        stage.estimate);
-  }
-  std::vector<Hypothesis> starts;
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    for (const effects::Values& start : candidates[c].law->starts(candidates[c].scales)) {
-      Hypothesis hypothesis;
-      hypothesis.candidate = static_cast<int>(c);
-      hypothesis.start = start;
-      starts.push_back(hypothesis);
-    }
-  }
+  const Screened all =
+      candidates_of(stage, data, {"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"});
+  const std::vector<Candidate>& candidates = all.candidates;
+  const std::vector<Hypothesis>& starts = all.starts;
   const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(8);
   ASSERT_EQ(pairs.size(), 8U);
   const auto label = [&](const Hypothesis& h) {
@@ -104,6 +113,37 @@ TEST(Tangents, PromiseMostForThePairThatIsHidden) {
     different.insert({label(pair.first), label(pair.second)});
   }
   EXPECT_EQ(different.size(), pairs.size());  // whatever the starts
+}
+
+TEST(Tangents, PromiseInLotsWhatTheyPromiseInOneLinearisation) {
+  const Data data = bench_twins({"cogging@mLS:sine=0.02,cycles=12"}).thinned(2);
+  const Stage stage = as_given(bench(), data);
+  const Screened all = candidates_of(stage, data, {"cogging", "torque_ripple", "viscous"});
+  const std::vector<Candidate>& candidates = all.candidates;
+  const std::vector<Hypothesis>& starts = all.starts;
+  const std::vector<Hypothesis> in_one = Tangents(stage, candidates, starts, data).promises();
+  const std::vector<Hypothesis> in_lots = promises_of(stage, candidates, starts, data);
+  ASSERT_EQ(in_one.size(), in_lots.size());
+  ASSERT_LT(first_lot(candidates, starts).size(), starts.size());  // there are several lots
+  for (std::size_t h = 0; h < in_one.size(); ++h) {
+    EXPECT_EQ(in_one[h].candidate, in_lots[h].candidate);
+    EXPECT_NEAR(in_one[h].promised(), in_lots[h].promised(), 1e-6 * in_one[h].promised());
+    EXPECT_LT((in_one[h].step - in_lots[h].step).norm(), 1e-5 * in_one[h].step.norm() + 1e-9);
+  }
+}
+
+TEST(Tangents, BeginALotWithTheBestStartOfEachCandidate) {
+  const Data data = bench_twins({"viscous@mLS:damping=0.001"}).thinned(2);
+  const Stage stage = as_given(bench(), data);
+  const Screened all = candidates_of(stage, data, {"cogging", "torque_ripple", "viscous"});
+  const std::vector<Candidate>& candidates = all.candidates;
+  const std::vector<Hypothesis>& starts = all.starts;
+  const std::vector<Hypothesis> lot = first_lot(candidates, starts);
+  std::set<int> seen;
+  for (std::size_t h = 0; h < candidates.size(); ++h) {
+    seen.insert(lot[h].candidate);
+  }
+  EXPECT_EQ(seen.size(), candidates.size());
 }
 
 }  // namespace

@@ -100,9 +100,12 @@ bool TiedPlaces::are_one(const std::string& a, const std::string& b) const {
                     std::abs(one->second.dot(other->second)) > kParallel);
 }
 
+bool are_of_one_family(const effects::Law& one, const effects::Law& other) {
+  return family_of(one) >= 0 && family_of(one) == family_of(other);
+}
+
 bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other, const TiedPlaces& places) {
-  return places.are_one(one.at, other.at) && family_of(*one.law) >= 0 &&
-         family_of(*one.law) == family_of(*other.law);
+  return places.are_one(one.at, other.at) && are_of_one_family(*one.law, *other.law);
 }
 
 }  // namespace plumbline::validation

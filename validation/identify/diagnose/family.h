@@ -24,6 +24,9 @@ class TiedPlaces {
 /// to the torque, what a sensor adds, or what the ground is like?
 bool are_of_one_family(const model::EffectUse& one, const model::EffectUse& other, const TiedPlaces& places);
 
+/// Of one family wherever they are; a law that is in none is of its own.
+bool are_of_one_family(const effects::Law& one, const effects::Law& other);
+
 bool is_friction(const effects::Law& law);
 
 /// Is the law so costly to try (it has states, or is nothing but beyond a threshold) that laws which depend

@@ -169,6 +169,7 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
       tangents.push_back(hypothesis);
     }
   }
+  tangents = first_lot(tried.candidates, std::move(tangents));
   progress("pairs of " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   const Data quick = without_stiffness(tried.stage, data);
   for (const PairHypothesis& promise : Tangents(tried.stage, tried.candidates, tangents, quick)

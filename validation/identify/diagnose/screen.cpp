@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "validation/identify/diagnose/family.h"
@@ -115,26 +116,54 @@ void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates,
                starts.end());
 }
 
-/// Bristles at the places where the friction that they contain promises most: where neither viscous nor dry
-/// friction explains anything they do not either, and they cost as much as all laws without states.
-void keep_where_friction_promises(const std::vector<Candidate>& candidates,
-                                  const std::vector<Hypothesis>& tangents, std::vector<Hypothesis>& starts) {
+/// Where linear laws of the law's family promise most, or, where the family has none, any linear laws at
+/// motors and coordinates; the most promising place first. Empty where nothing linear tells of the law.
+std::vector<std::string> places_for(const effects::Law& law, const std::vector<Candidate>& candidates,
+                                    const std::vector<Hypothesis>& tangents, const TiedPlaces& tied) {
   constexpr std::size_t kPlaces = 4;
   const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
     return candidates[static_cast<std::size_t>(one.candidate)];
   };
+  const bool has_linear = std::any_of(tangents.begin(), tangents.end(), [&](const Hypothesis& one) {
+    return are_of_one_family(*candidate_of(one).law, law);
+  });
+  const auto tells = [&](const Candidate& candidate) {
+    const bool is_drive =
+        candidate.place == effects::Place::motor || candidate.place == effects::Place::coordinate;
+    return has_linear ? are_of_one_family(*candidate.law, law) : is_drive;
+  };
   std::vector<std::string> places;
-  for (const Hypothesis& one : tangents) {  // sorted: the most promising first
+  for (const Hypothesis& one : tangents) {  // sorted
     const Candidate& candidate = candidate_of(one);
-    if (places.size() < kPlaces && is_friction(*candidate.law) &&
-        std::find(places.begin(), places.end(), candidate.at) == places.end()) {
+    const bool is_known = std::any_of(places.begin(), places.end(),
+                                      [&](const std::string& at) { return tied.are_one(at, candidate.at); });
+    if (places.size() < kPlaces && !is_known && tells(candidate)) {
       places.push_back(candidate.at);
     }
   }
-  const auto is_elsewhere = [&](const Hypothesis& one) {
-    const Candidate& candidate = candidate_of(one);
-    return is_friction(*candidate.law) && candidate.law->state_count() > 0 &&
-           std::find(places.begin(), places.end(), candidate.at) == places.end();
+  return places;
+}
+
+/// Families first: what has to be tried from values of its own costs a linearisation for each of them, and is
+/// tried at a few places only. A law without a family is tried everywhere.
+void keep_where_family_promises(const std::vector<Candidate>& candidates,
+                                const std::vector<Hypothesis>& tangents, const TiedPlaces& tied,
+                                std::vector<Hypothesis>& starts) {
+  std::map<std::string, std::vector<std::string>> places;  // by law
+  const auto is_elsewhere = [&](const Hypothesis& start) {
+    const Candidate& candidate = candidates[static_cast<std::size_t>(start.candidate)];
+    const effects::Law& law = *candidate.law;
+    if (!are_of_one_family(law, law)) {
+      return false;
+    }
+    const std::string& name = law.declaration().name;
+    if (places.count(name) == 0) {
+      places[name] = places_for(law, candidates, tangents, tied);
+    }
+    const std::vector<std::string>& best = places[name];
+    return !best.empty() && std::none_of(best.begin(), best.end(), [&](const std::string& at) {
+      return tied.are_one(at, candidate.at);
+    });
   };
   starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
 }
@@ -143,13 +172,12 @@ void keep_where_friction_promises(const std::vector<Candidate>& candidates,
 /// of what is above the floor, and there the most.
 void keep_behind_forerunners(const std::vector<Candidate>& candidates,
                              const std::vector<Hypothesis>& tangents, const Stage& stage,
-                             std::vector<Hypothesis>& starts) {
+                             const TiedPlaces& tied, std::vector<Hypothesis>& starts) {
   constexpr double kNoticeable = 0.1;
   constexpr std::size_t kPlaces = 2;
   constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
   const double now = stage.estimate.predicted.scores.square();
   const double most = now - kNoticeable * std::max(now - kFloors, 0.0);
-  const TiedPlaces places(stage.model);
   const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
     return candidates[static_cast<std::size_t>(one.candidate)];
   };
@@ -164,7 +192,7 @@ void keep_behind_forerunners(const std::vector<Candidate>& candidates,
       }
     }
     return std::any_of(first.begin(), first.end(),
-                       [&](const std::string& at) { return places.are_one(at, costly.at); });
+                       [&](const std::string& at) { return tied.are_one(at, costly.at); });
   };
   starts.erase(std::remove_if(starts.begin(), starts.end(),
                               [&](const Hypothesis& start) {
@@ -275,10 +303,11 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
     }
   }
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
-  std::vector<Hypothesis> found = Tangents(stage, candidates, tangents, data).promises();
+  std::vector<Hypothesis> found = promises_of(stage, candidates, tangents, data);
   sort_by_promise(found);
-  keep_where_friction_promises(candidates, found, starts);
-  keep_behind_forerunners(candidates, found, stage, starts);
+  const TiedPlaces tied(stage.model);
+  keep_where_family_promises(candidates, found, tied, starts);
+  keep_behind_forerunners(candidates, found, stage, tied, starts);
   const Part part = enough_to_tell(stage, data);
   constexpr std::size_t kMany = 60;
   if (data.has_segments() || starts.size() > kMany) {

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -92,6 +94,28 @@ std::vector<Reduced> linearise(PredictorPool& pool, const std::vector<FreeParame
   return all;
 }
 
+/// Of one linearisation. Sums over a window's rows cost as much as its slopes at about so many (a quadruped's
+/// quarter second: 2,600 rows, 46 states).
+constexpr std::size_t kMostColumns = 256;
+
+std::size_t most_columns_of(const Candidate& candidate) {
+  return candidate.law->declaration().parameters.size();
+}
+
+/// Behind the last of the hypotheses from `first` on that one linearisation holds; at least one.
+std::size_t end_of_lot(const std::vector<Candidate>& candidates, const std::vector<Hypothesis>& hypotheses,
+                       std::size_t first) {
+  std::size_t columns = 0;
+  std::size_t end = first;
+  for (; end < hypotheses.size(); ++end) {
+    columns += most_columns_of(candidates[static_cast<std::size_t>(hypotheses[end].candidate)]);
+    if (columns > kMostColumns && end > first) {
+      break;
+    }
+  }
+  return end;
+}
+
 /// The same two candidates, in whichever order and from whatever starts.
 bool is_same_pair(const PairHypothesis& one, const PairHypothesis& other) {
   const auto first = std::minmax(one.first.candidate, one.second.candidate);
@@ -103,6 +127,34 @@ bool is_same_pair(const PairHypothesis& one, const PairHypothesis& other) {
 bool has_tangent(const Candidate& candidate, const effects::Values& start) {
   return candidate.place != effects::Place::ratio && candidate.law->state_count() == 0 &&
          candidate.law->is_null(start.data());
+}
+
+std::vector<Hypothesis> promises_of(const Stage& stage, const std::vector<Candidate>& candidates,
+                                    const std::vector<Hypothesis>& hypotheses, const Data& data) {
+  std::vector<Hypothesis> found;
+  for (std::size_t first = 0; first < hypotheses.size();) {
+    const std::size_t end = end_of_lot(candidates, hypotheses, first);
+    const std::vector<Hypothesis> lot(hypotheses.begin() + static_cast<std::ptrdiff_t>(first),
+                                      hypotheses.begin() + static_cast<std::ptrdiff_t>(end));
+    for (Hypothesis& one : Tangents(stage, candidates, lot, data).promises()) {
+      found.push_back(std::move(one));
+    }
+    first = end;
+  }
+  return found;
+}
+
+std::vector<Hypothesis> first_lot(const std::vector<Candidate>& candidates,
+                                  std::vector<Hypothesis> hypotheses) {
+  std::set<int> seen;
+  std::vector<Hypothesis> firsts;
+  std::vector<Hypothesis> others;
+  for (Hypothesis& one : hypotheses) {
+    (seen.insert(one.candidate).second ? firsts : others).push_back(std::move(one));
+  }
+  std::move(others.begin(), others.end(), std::back_inserter(firsts));
+  firsts.resize(end_of_lot(candidates, firsts, 0));
+  return firsts;
 }
 
 Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,

@@ -49,6 +49,16 @@ class Tangents {
   LinearProblem problem_;
 };
 
+/// What each of the hypotheses promises alone, as Tangents::promises(), in lots of at most kMostColumns
+/// parameters: a linearisation's cost grows with the square of what it holds.
+std::vector<Hypothesis> promises_of(const Stage& stage, const std::vector<Candidate>& candidates,
+                                    const std::vector<Hypothesis>& hypotheses, const Data& data);
+
+/// Of hypotheses, the most promising first, as many as one linearisation holds: the best start of each
+/// candidate, then the others.
+std::vector<Hypothesis> first_lot(const std::vector<Candidate>& candidates,
+                                  std::vector<Hypothesis> hypotheses);
+
 /// A law that can be linearised at its null value: it brings no state and no coordinate.
 bool has_tangent(const Candidate& candidate, const effects::Values& start);
 
