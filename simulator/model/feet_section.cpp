@@ -113,33 +113,12 @@ Foot foot_of(const ContactSphere& sphere, const std::string& name) {
 
 /// The two ends of a capsule, as feet of one group.
 void add_capsule(const YamlNode& node, const std::string& name, const std::string& group, Model& model) {
-  std::vector<std::string> names;
   int ends = 0;
-  for (const ContactSphere& sphere : model.skeleton.spheres) {
-    if (!sphere.shape.empty() && sphere.shape == node.text()) {
-      Foot foot = foot_of(sphere, name + "_" + std::to_string(++ends));
-      foot.group = group.empty() ? name : group;
-      model.feet.push_back(std::move(foot));
-    } else if (!sphere.shape.empty() && (names.empty() || names.back() != sphere.shape)) {
-      names.push_back(sphere.shape);
-    }
+  for (const ContactSphere& sphere : skeleton_capsule(node, model)) {
+    Foot foot = foot_of(sphere, name + "_" + std::to_string(++ends));
+    foot.group = group.empty() ? name : group;
+    model.feet.push_back(std::move(foot));
   }
-  if (ends == 0) {
-    node.refuse(quote(node.text()), "the name of a capsule of an MJCF skeleton that may touch the ground" +
-                                        nearest_names(node.text(), names));
-  }
-}
-
-const ContactSphere& sphere_of(const YamlNode& node, const Model& model) {
-  std::vector<std::string> names;
-  for (const ContactSphere& sphere : model.skeleton.spheres) {
-    if (sphere.name == node.text()) {
-      return sphere;
-    }
-    names.push_back(sphere.name);
-  }
-  node.refuse(quote(node.text()), "the name of a sphere of an MJCF skeleton that may touch the ground" +
-                                      nearest_names(node.text(), names));
 }
 
 void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
@@ -151,7 +130,7 @@ void read_foot(const std::string& name, const YamlNode& entry, Model& model) {
   }
   if (const auto sphere = entry.find("sphere")) {
     entry.allow_keys({"sphere", "group"});
-    model.feet.push_back(foot_of(sphere_of(*sphere, model), name));
+    model.feet.push_back(foot_of(skeleton_sphere(*sphere, model), name));
     model.feet.back().group = group;
     return;
   }
@@ -210,6 +189,36 @@ void check_feet(const YamlNode& node, const Model& model) {
 }
 
 }  // namespace
+
+std::array<ContactSphere, 2> skeleton_capsule(const YamlNode& name, const Model& model) {
+  std::array<ContactSphere, 2> ends;
+  std::vector<std::string> names;
+  std::size_t found = 0;
+  for (const ContactSphere& sphere : model.skeleton.spheres) {
+    if (!sphere.shape.empty() && sphere.shape == name.text() && found < ends.size()) {
+      ends[found++] = sphere;
+    } else if (!sphere.shape.empty() && (names.empty() || names.back() != sphere.shape)) {
+      names.push_back(sphere.shape);
+    }
+  }
+  if (found < ends.size()) {
+    name.refuse(quote(name.text()), "the name of a capsule of an MJCF skeleton that may touch the ground" +
+                                        nearest_names(name.text(), names));
+  }
+  return ends;
+}
+
+const ContactSphere& skeleton_sphere(const YamlNode& name, const Model& model) {
+  std::vector<std::string> names;
+  for (const ContactSphere& sphere : model.skeleton.spheres) {
+    if (sphere.name == name.text()) {
+      return sphere;
+    }
+    names.push_back(sphere.name);
+  }
+  name.refuse(quote(name.text()), "the name of a sphere of an MJCF skeleton that may touch the ground" +
+                                      nearest_names(name.text(), names));
+}
 
 void read_feet(const YamlNode& node, Model& model) {
   if (!node.is_map()) {

@@ -25,19 +25,6 @@ Loop::Type type_of(const YamlNode& entry) {
   type.refuse("connect, hinge, weld or rod");
 }
 
-int end_link_of(const YamlNode& end, const Model& model) {
-  const YamlNode link = end.at("link");
-  if (link.text() == kWorld) {
-    return -1;
-  }
-  std::vector<std::string> known = model.places(effects::Place::body);
-  if (std::find(known.begin(), known.end(), link.text()) == known.end()) {
-    known.emplace_back(kWorld);
-    link.refuse(quote(link.text()), "the name of a link of the skeleton" + nearest_names(link.text(), known));
-  }
-  return model.body_index(link.text());
-}
-
 /// Axes whose z is the given direction; which way x lies is of no matter.
 Eigen::Matrix3d about(const YamlNode& axis) {
   const Vector3d direction = three(axis, "the hinge's axis in the link's frame");
@@ -52,7 +39,7 @@ LoopEnd read_end(const YamlNode& node, Loop::Type type, const Model& model) {
                   : type == Loop::Type::weld ? std::vector<std::string>{"link", "value", "unit", "turn"}
                                              : std::vector<std::string>{"link", "value", "unit"});
   LoopEnd end;
-  end.body = end_link_of(node, model);
+  end.body = link_or_world(node, model);
   end.point = factor_of(node.at("unit"), "m") * three(node.at("value"), "[x, y, z] in the link's frame");
   if (type == Loop::Type::hinge) {
     end.axes = about(node.at("axis"));
@@ -103,6 +90,19 @@ Loop read_loop(const std::string& name, const YamlNode& entry, const Model& mode
 }
 
 }  // namespace
+
+int link_or_world(const YamlNode& node, const Model& model) {
+  const YamlNode link = node.at("link");
+  if (link.text() == kWorld) {
+    return -1;
+  }
+  std::vector<std::string> known = model.places(effects::Place::body);
+  if (std::find(known.begin(), known.end(), link.text()) == known.end()) {
+    known.emplace_back(kWorld);
+    link.refuse(quote(link.text()), "the name of a link of the skeleton" + nearest_names(link.text(), known));
+  }
+  return model.body_index(link.text());
+}
 
 void read_loops(const YamlNode& node, Model& model) {
   for (const auto& [name, entry] : node.entries()) {

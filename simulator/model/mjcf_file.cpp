@@ -304,7 +304,7 @@ class MjcfReader : private MjcfValues {
     const std::array<Part, 6> parts{{{"actuator", "state them as `motors` of the model file"},
                                      {"tendon", ""},
                                      {"equality", ""},
-                                     {"contact", ""},
+                                     {"contact", "state its pairs as `contacts` of the model file"},
                                      {"sensor", "state them as `sensors` of the model file"},
                                      {"keyframe", ""}}};
     for (const Part& part : parts) {

@@ -110,6 +110,7 @@ std::vector<std::string> Model::places(effects::Place place) const {
           names.push_back(at);
         }
       }
+      append_names(contacts, names);
       break;
     case effects::Place::base:
       if (planar_base(skeleton)) {
@@ -185,8 +186,10 @@ std::string expected_place(const Model& model, const effects::Law& law, const st
   std::string kinds;
   std::vector<std::string> known;
   for (const effects::Place place : law.declaration().places) {
-    const std::string kind =
-        is_of_inertial(law, place) ? "gyroscope or accelerometer of three axes" : effects::to_string(place);
+    const std::string kind = is_of_inertial(law, place) ? "gyroscope or accelerometer of three axes"
+                             : place == effects::Place::foot && !model.contacts.empty()
+                                 ? "foot or contact"
+                                 : effects::to_string(place);
     kinds += (kinds.empty() ? "" : " or ") + kind;
     for (const std::string& name : places_of(model, law, place)) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/shapes.h"
 #include "simulator/effects/catalogue.h"
 #include "simulator/effects/law.h"
 #include "simulator/model/arc.h"
@@ -167,6 +168,20 @@ struct Foot {
   bool answers_to(const std::string& place) const { return place == (group.empty() ? name : group); }
 };
 
+/// One of two links that may meet: its shape, in the link's frame (m); of the world in the world's.
+struct ContactEnd {
+  int body = -1;  ///< index in Skeleton::bodies; -1: the world
+  contact::Shape shape;
+};
+
+/// A pair of links, or a link and the world, that may meet: a place for the laws of feet. Only pairs that are
+/// listed do.
+struct LinkContact {
+  std::string name;
+  std::array<ContactEnd, 2> ends;
+  std::string source;
+};
+
 /// A use of an effect: a law, its place and its values.
 struct EffectUse {
   std::shared_ptr<const effects::Law> law;
@@ -238,6 +253,7 @@ struct Model {
   std::vector<Ratio> ratios;
   std::vector<Inertia> inertias;
   std::vector<Foot> feet;
+  std::vector<LinkContact> contacts;
   std::vector<Loop> loops;       ///< the skeleton's and the model's own
   std::vector<Lock> loops_near;  ///< positions of joints near which the loops are closed first
   std::vector<EffectUse> effects;

@@ -1,6 +1,9 @@
 // The sections of a model.yaml, each read into its part of the Model. Every function throws InputError.
 #pragma once
 
+#include <array>
+#include <string>
+
 #include "simulator/model/model.h"
 #include "simulator/model/yaml_node.h"
 
@@ -19,6 +22,13 @@ void read_ratios(const YamlNode& node, Model& model);
 void read_inertias(const YamlNode& node, Model& model);
 /// feet: points of links that may meet the ground.
 void read_feet(const YamlNode& node, Model& model);
+/// contacts: pairs of links that may meet each other; needs feet, whose names are taken.
+void read_contacts(const YamlNode& node, Model& model);
+/// A sphere, and the two ends of a capsule, of an MJCF skeleton that may touch something, by the geom's name.
+const ContactSphere& skeleton_sphere(const YamlNode& name, const Model& model);
+std::array<ContactSphere, 2> skeleton_capsule(const YamlNode& name, const Model& model);
+/// The `link` of a map: its index in the skeleton's bodies, or -1 for the world.
+int link_or_world(const YamlNode& node, const Model& model);
 /// loops: what closes chains of joints, and where they are closed first.
 void read_loops(const YamlNode& node, Model& model);
 /// sensors: of positions, force plates, contact switches, and what is measured at points of links; needs

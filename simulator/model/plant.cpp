@@ -44,6 +44,9 @@ Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrai
   structure_ = make_structure();
   place_sensors();  // points of links ask the mechanism
   find_feet();
+  if (links_ != nullptr) {
+    links_->find_links(model_, *structure_.mechanism);
+  }
   check_mass_matrix();
   make_loops();
 }
@@ -272,7 +275,7 @@ void Plant::place_effects() {
   }
   place_ground(next_state);
   nx_ = next_state;
-  switch_count_ = static_cast<int>(g.size() + feet_.size());
+  switch_count_ = static_cast<int>(g.size() + feet_.size()) + link_points();
   Eigen::Index released = 0;
   stretch_map_.resize(static_cast<Eigen::Index>(model_.ratios.size()), nz_);
   for (const Ratio& ratio : model_.ratios) {
@@ -412,6 +415,11 @@ std::vector<std::string> Plant::state_names() const {
     const Foot& foot = model_.feet[static_cast<std::size_t>(slot.foot)];
     for (const FootSlot::Drag& use : slot.drags) {
       label(use.effect, use.state, foot.group.empty() ? "" : " (" + foot.name + ")");
+    }
+  }
+  for (int point = 0; point < link_points(); ++point) {
+    for (const ContactLaws::Drag& use : links_->laws(point).drags) {
+      label(use.effect, use.state, links_->number_of(point));
     }
   }
   return names;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_law.h"
-#include "contact/ground_change.h"
 #include "contact/terrain.h"
+#include "simulator/model/contact_laws.h"
+#include "simulator/model/link_contacts.h"
 #include "simulator/model/loop_closure.h"
 #include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
@@ -138,6 +138,14 @@ class Plant {
   std::vector<Touch> touches(const double* x);
   /// Does any foot have a ground that presses?
   bool meets_ground() const { return !feet_.empty(); }
+  /// Points at which links of the model may meet each other: those of its contacts that have a law.
+  int link_points() const { return links_ == nullptr ? 0 : links_->points(); }
+  /// Of all of them.
+  std::vector<LinkTouch> link_touches(const double* x);
+  /// On the first link of each of the model's contacts, in the world's axes, N.
+  std::vector<Eigen::Vector3d> contact_forces(const double* x);
+  /// Does anything press on the links that begins where they meet something?
+  bool meets_anything() const { return meets_ground() || links_ != nullptr; }
   /// Of one of the model's feet that has a ground; far above the ground where it has none.
   FootDepth foot_depth(int foot, const double* x);
   /// d(depth)/dz on level ground, 1 x positions; and d(depth)/d(parameters), 1 x parameters.
@@ -254,25 +262,9 @@ class Plant {
   struct Reach {
     double up = 0.0, down = 0.0;
   };
-  struct FootSlot {
-    struct Normal {
-      const contact::NormalLaw* law;
-      int effect;
-    };
-    struct Drag {
-      const contact::TangentialLaw* law;
-      int effect, state;
-    };
-    struct Change {
-      const contact::GroundChangeLaw* law;
-      int effect;
-    };
-    int foot = 0;   // index in the model
-    int body = -1;  // in the mechanism's tree
-    std::vector<Normal> normals;
-    std::vector<Drag> drags;
-    std::vector<Change> changes;
-    double height = 0.0;      // of all changes, m
+  struct FootSlot : ContactLaws {
+    int foot = 0;             // index in the model
+    int body = -1;            // in the mechanism's tree
     bool keeps_axes = false;  // its bristles lie in the world's axes, not in those of its link
   };
   struct ActuatorSlot {
@@ -321,6 +313,12 @@ class Plant {
   void place_force(const effects::ForceLaw& law, int effect, int& next_state);
   void place_sensors();
   void place_ground(int& next_state);
+  void place_links(int& next_state);
+  void add_links(const double* x, Eigen::VectorXd& Q, double* xdot);
+  void link_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
+  void link_parameter_tangent(const double* x, ParameterId id, double step, effects::Values moved,
+                              Eigen::Ref<Eigen::VectorXd> column);
+  void link_energetics(const double* x, Energetics& e) const;
   void find_feet();
   void change_ground();
   Eigen::Vector3d below(const FootSlot& slot) const;
@@ -409,6 +407,7 @@ class Plant {
   Eigen::VectorXd q0_;
   std::vector<ForceSlot> forces_;
   std::vector<FootSlot> feet_;
+  std::unique_ptr<LinkContacts> links_;  // null: none that has a law
   contact::Terrain terrain_;
   std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
   std::vector<StructureSlot> structures_;

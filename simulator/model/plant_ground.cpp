@@ -11,9 +11,7 @@ namespace plumbline::model {
 
 namespace {
 
-constexpr double kLeastDepthStep = 1e-13;  // m
-constexpr double kSpeedStep = 1e-4;        // m/s: the root of a speed has no slope at rest
-constexpr double kBaseStep = 1e-6;         // 1/m or m
+constexpr double kBaseStep = 1e-6;  // 1/m or m
 
 }  // namespace
 
@@ -22,26 +20,8 @@ void Plant::place_ground(int& next_state) {
     const Foot& foot = model_.feet[f];
     FootSlot slot;
     slot.foot = static_cast<int>(f);
-    for (int e = 0; e < static_cast<int>(model_.effects.size()); ++e) {
-      const EffectUse& use = model_.effects[static_cast<std::size_t>(e)];
-      if (!foot.answers_to(use.at) || use.law->is_null(values(e))) {
-        continue;
-      }
-      if (const auto* normal = dynamic_cast<const contact::NormalLaw*>(use.law.get())) {
-        slot.normals.push_back({normal, e});
-      } else if (const auto* drag = dynamic_cast<const contact::TangentialLaw*>(use.law.get())) {
-        slot.drags.push_back({drag, e, drag->state_count() > 0 ? next_state : -1});
-        next_state += drag->state_count();
-      }
-    }
-    for (int e = 0; e < static_cast<int>(model_.effects.size()); ++e) {
-      const EffectUse& use = model_.effects[static_cast<std::size_t>(e)];
-      if (const auto* change = dynamic_cast<const contact::GroundChangeLaw*>(use.law.get())) {
-        if (foot.answers_to(use.at)) {
-          slot.changes.push_back({change, e});
-        }
-      }
-    }
+    slot.take(
+        model_, values_, [&](const std::string& at) { return foot.answers_to(at); }, next_state);
     slot.keeps_axes = model_.skeleton.floats() &&
                       std::all_of(slot.drags.begin(), slot.drags.end(), [&](const FootSlot::Drag& use) {
                         return use.law->is_isotropic(values(use.effect));
@@ -50,33 +30,21 @@ void Plant::place_ground(int& next_state) {
       feet_.push_back(std::move(slot));
     }
   }
+  place_links(next_state);
   change_ground();
 }
 
 void Plant::change_ground() {
-  if (feet_.empty()) {
+  if (feet_.empty() && links_ == nullptr) {
     return;
   }
   on_ground_ = values_;
-  std::vector<std::pair<int, int>> done;  // change and law: feet of a group share both
-  const auto apply = [&](const contact::GroundChange& change, int by, const auto& use) {
-    if (std::find(done.begin(), done.end(), std::pair(by, use.effect)) == done.end()) {
-      use.law->apply(change, on_ground_[static_cast<std::size_t>(use.effect)].data());
-      done.emplace_back(by, use.effect);
-    }
-  };
+  ContactLaws::Applied applied;
   for (FootSlot& slot : feet_) {
-    slot.height = 0.0;
-    for (const FootSlot::Change& use : slot.changes) {
-      const contact::GroundChange change = use.law->change(values(use.effect));
-      slot.height += change.height;
-      for (const FootSlot::Normal& normal : slot.normals) {
-        apply(change, use.effect, normal);
-      }
-      for (const FootSlot::Drag& drag : slot.drags) {
-        apply(change, use.effect, drag);
-      }
-    }
+    slot.change(values_, on_ground_, applied);
+  }
+  if (links_ != nullptr) {
+    links_->change(values_, on_ground_, applied);
   }
 }
 
@@ -115,18 +83,10 @@ void Plant::press(const FootSlot& slot, const double* x, Touch& touch, double* x
   const Eigen::Vector2d forward(touch.left.y(), -touch.left.x());
   const Eigen::Vector2d velocity = touch.velocity.head<2>();
   const Eigen::Vector2d slip(forward.dot(velocity), touch.left.dot(velocity));
+  const Eigen::Vector3d force = slot.force(touch.depth, rate, slip, x, on_ground_, xdot);
   touch.force.setZero();
-  for (const FootSlot::Normal& use : slot.normals) {
-    touch.force.z() += use.law->force(touch.depth, rate, on_ground(use.effect));
-  }
-  for (const FootSlot::Drag& use : slot.drags) {
-    const double* state = use.state >= 0 ? x + use.state : nullptr;
-    const Eigen::Vector2d drag = use.law->force(slip, touch.force.z(), state, on_ground(use.effect));
-    touch.force.head<2>() += drag.x() * forward + drag.y() * touch.left;
-    if (xdot != nullptr && use.state >= 0) {
-      use.law->state_rate(slip, touch.force.z(), state, on_ground(use.effect), xdot + use.state);
-    }
-  }
+  touch.force.z() = force.z();
+  touch.force.head<2>() += force.x() * forward + force.y() * touch.left;
 }
 
 void Plant::add_ground(const double* x, Eigen::VectorXd& Q, double* xdot) {
@@ -240,7 +200,6 @@ void Plant::leverage_tangent(const FootSlot& slot, const Touch& at, const double
 // jumps, from how they straighten to the slip, and counts by the share of the step that lies across.
 void Plant::foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
                          Eigen::Ref<Eigen::MatrixXd> A) {
-  constexpr double kShareOfDepth = 1e-6;
   const double least_depth = std::max(kLeastDepthStep, kShareOfDepth * std::abs(at.depth));
   for (int k = 0; k < 4; ++k) {
     const bool by_depth = k == 3;

@@ -180,6 +180,9 @@ void Plant::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
     }
   }
   add_ground(x, Q, xdot);
+  if (links_ != nullptr) {
+    add_links(x, Q, xdot);
+  }
 }
 
 // Joint positions are those of the last evaluation.
@@ -281,11 +284,14 @@ void Plant::switches(const double* x, double* g) {
   for (const ForceSlot& slot : forces_) {
     slot.law->switches(motion(slot, x), values(slot.effect), all);
   }
-  if (!feet_.empty()) {
+  if (meets_anything()) {
     rigid_at(x);
   }
   for (const FootSlot& slot : feet_) {
     all.push_back(touch(slot).depth);
+  }
+  for (int point = 0; point < link_points(); ++point) {
+    all.push_back(links_->touch(point, tree()).depth);
   }
   std::copy(all.begin(), all.end(), g);
 }
@@ -330,6 +336,9 @@ Energetics Plant::powers(const double* x) const {
     e.dissipated += slot.law->dissipated_power(at, state, values(slot.effect));
   }
   ground_energetics(x, e);
+  if (links_ != nullptr) {
+    link_energetics(x, e);
+  }
   return e;
 }
 

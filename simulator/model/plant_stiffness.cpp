@@ -1,5 +1,6 @@
 // Which effect of a Plant is the stiffest: for the message of an integrator that gives up.
 #include <Eigen/Eigenvalues>
+#include <memory>
 #include <utility>
 
 #include "simulator/model/plant.h"
@@ -20,7 +21,8 @@ Stiffest Plant::stiffest(const double* x, const double* command) {
   std::vector<ForceSlot> forces = forces_;
   std::vector<FootSlot> feet = feet_;
   forces.swap(forces_);
-  feet.swap(feet_);  // `forces` and `feet` are the plant's own, forces_ and feet_ what acts
+  feet.swap(feet_);  // `forces`, `feet` and `links` are the plant's own, forces_, feet_ and links_ what acts
+  std::unique_ptr<LinkContacts> links = std::move(links_);
   Stiffest found;
   const auto compare = [&](int effect) {
     const double rate = spectral_radius(x);
@@ -45,8 +47,19 @@ Stiffest Plant::stiffest(const double* x, const double* command) {
       compare(slot.drags.front().effect);
     }
   }
+  feet_.clear();
+  for (int point = 0; links != nullptr && point < links->points(); ++point) {
+    const ContactLaws& laws = links->laws(point);
+    links_ = std::make_unique<LinkContacts>(links->only(point, false));
+    compare(laws.normals.front().effect);
+    links_ = std::make_unique<LinkContacts>(links->only(point, true));
+    if (!laws.drags.empty()) {
+      compare(laws.drags.front().effect);
+    }
+  }
   forces_ = std::move(forces);
   feet_ = std::move(feet);
+  links_ = std::move(links);
   return found;
 }
 

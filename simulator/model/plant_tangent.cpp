@@ -68,6 +68,9 @@ void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eig
     }
   }
   ground_tangent(x, change, A);
+  if (links_ != nullptr) {
+    link_tangent(x, change, A);
+  }
   accelerate_in_place(slopes_);
   A.middleRows(nz_, nz_) += slopes_;
 }
@@ -349,6 +352,9 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
     if (model_.feet[static_cast<std::size_t>(slot.foot)].answers_to(at)) {
       ground_parameter_tangent(slot, x, id, step, moved, column);
     }
+  }
+  if (links_ != nullptr && links_->answers_to(id.effect)) {
+    link_parameter_tangent(x, id, step, moved, column);
   }
 }
 

@@ -84,8 +84,8 @@ void tie_mimics(const YamlNode& root, Model& model) {
 
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
   root.allow_keys({"plumbline", "robot", "skeleton", "floating_base", "gravity", "masses", "coordinates",
-                   "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "loops", "effects",
-                   "joint_dynamics"});
+                   "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "contacts", "loops",
+                   "effects", "joint_dynamics"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
@@ -102,6 +102,7 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   tie_mimics(root, model);
   read_section(root, "inertias", read_inertias, model);
   read_section(root, "feet", read_feet, model);
+  read_section(root, "contacts", read_contacts, model);
   model.loops = model.skeleton.loops;
   for (const Joint& joint : model.skeleton.joints) {
     if (joint.reference != 0.0 && !model.loops.empty()) {

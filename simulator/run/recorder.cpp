@@ -31,6 +31,11 @@ Recorder::Recorder(const model::Model& model, const WiredController* controller)
       trace_.add_column("F_" + foot.name + "_" + axis, "N");
     }
   }
+  for (const model::LinkContact& contact : model.contacts) {
+    for (const char* axis : {"x", "y", "z"}) {
+      trace_.add_column("F_" + contact.name + "_" + axis, "N");
+    }
+  }
   if (controller != nullptr) {
     for (const plumbline_port& port : controller->library().log()) {
       trace_.add_column(port.name, port.unit);
@@ -47,6 +52,9 @@ void Recorder::row(const Simulation& simulation, const Sensed& sensed, const Eig
   trace_.add(command);
   for (const model::Touch& touch : simulation.touches()) {
     trace_.add(touch.force);
+  }
+  for (const Eigen::Vector3d& force : simulation.contact_forces()) {
+    trace_.add(force);
   }
   if (controller_ != nullptr) {
     for (const double value : controller_->log()) {

@@ -27,8 +27,9 @@ class Rows {
 };
 
 /// Trace: t; q_SENSOR, true positions without counts and noise; u_MOTOR, commands; F_FOOT_x, _y, _z, force of
-/// the ground on the foot; what the controller logs, under its own names. SI.
-/// Record: t; the readings of the sensors under the same names; u_MOTOR; s_SWITCH, 1 closed. SI.
+/// the ground on the foot; F_CONTACT_x, _y, _z, that on the first of two links in contact; what the
+/// controller logs, under its own names. SI. Record: t; the readings of the sensors under the same names;
+/// u_MOTOR; s_SWITCH, 1 closed. SI.
 class Recorder {
  public:
   Recorder(const model::Model& model, const WiredController* controller);

@@ -43,6 +43,7 @@ void Simulation::measure() {
   plant_.outputs(x, outputs_.data(), ode_.command());
   plates_.write(outputs_.data());
   touches_ = plant_.touches(x);
+  contact_forces_ = plant_.contact_forces(x);
 }
 
 void Simulation::account(const Eigen::VectorXd& command) {

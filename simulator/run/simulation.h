@@ -46,6 +46,8 @@ class Simulation {
   /// the sample.
   const Eigen::VectorXd& outputs() const { return outputs_; }
   const std::vector<model::Touch>& touches() const { return touches_; }
+  /// Plant::contact_forces() at the last measure().
+  const std::vector<Eigen::Vector3d>& contact_forces() const { return contact_forces_; }
   /// The energy's account at this sample, under the command that is about to hold (with energy only).
   void account(const Eigen::VectorXd& command);
   double energy_error() const { return energy_.error(work(), dissipated()); }          ///< J
@@ -71,6 +73,7 @@ class Simulation {
   long samples_ = 0;
   Eigen::VectorXd outputs_;
   std::vector<model::Touch> touches_;
+  std::vector<Eigen::Vector3d> contact_forces_;
 };
 
 }  // namespace plumbline::run

@@ -50,10 +50,11 @@ TEST_F(Json, Effects) {
 
 TEST_F(Json, CheckOfAModel) {
   const json model = from({"check", "robot/model.yaml"});
-  EXPECT_THAT(keys(model), UnorderedElementsAre("kind", "file", "robot", "lineage", "skeleton",
-                                                "independent_coordinates", "states", "bodies", "coordinates",
-                                                "motors", "pulleys", "ratios", "inertias", "loops", "effects",
-                                                "sensors", "contact_switches", "places", "meshes"));
+  EXPECT_THAT(keys(model),
+              UnorderedElementsAre("kind", "file", "robot", "lineage", "skeleton", "independent_coordinates",
+                                   "states", "bodies", "coordinates", "motors", "pulleys", "ratios",
+                                   "inertias", "contacts", "loops", "effects", "sensors", "contact_switches",
+                                   "places", "meshes"));
   EXPECT_EQ(model["kind"], "model");
   EXPECT_EQ(model["independent_coordinates"], 1);
   EXPECT_EQ(model["states"], 2);

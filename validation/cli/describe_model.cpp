@@ -65,13 +65,30 @@ void print_drivetrain(const Model& model) {
   print_table({"name", "position"}, rows);
 }
 
+/// Of a link, by its index; of the world.
+std::string link_name(const Model& model, int body) {
+  return body < 0 ? "world" : model.skeleton.bodies[static_cast<std::size_t>(body)].name;
+}
+
+/// "sphere of ball", "box of tray"
+void print_contacts(const Model& model) {
+  Rows rows;
+  const auto shape = [&](const model::ContactEnd& end) {
+    return contact::name_of(end.shape) + " of " + link_name(model, end.body);
+  };
+  for (const model::LinkContact& contact : model.contacts) {
+    rows.push_back({contact.name, shape(contact.ends[0]), shape(contact.ends[1])});
+  }
+  if (!rows.empty()) {
+    fmt::print("\nContacts between links:\n\n");
+    print_table({"name", "between", "and"}, rows);
+  }
+}
+
 /// "connect", "coupler", "rocker"
 void print_loops(const Model& model) {
   Rows rows;
-  const auto name = [&](const model::LoopEnd& end) {
-    return end.body < 0 ? std::string("world")
-                        : model.skeleton.bodies[static_cast<std::size_t>(end.body)].name;
-  };
+  const auto name = [&](const model::LoopEnd& end) { return link_name(model, end.body); };
   for (const model::Loop& loop : model.loops) {
     rows.push_back({loop.name, model::to_string(loop.type), name(loop.ends[0]), name(loop.ends[1])});
   }
@@ -130,6 +147,7 @@ void print(const Model& model, const Freedom& freedom) {
   fmt::print("  {} bodies, {:g} kg in all; {} independent coordinates, {} states\n",
              model.skeleton.bodies.size(), mass, freedom.coordinates, freedom.states);
   print_drivetrain(model);
+  print_contacts(model);
   print_loops(model);
   print_effects(model);
   print_sensors(model);

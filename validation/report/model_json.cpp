@@ -109,6 +109,20 @@ json sensors_json(const Model& model) {
   return list;
 }
 
+json contacts_json(const Model& model) {
+  json list = json::array();
+  for (const model::LinkContact& contact : model.contacts) {
+    json one{{"name", contact.name}, {"between", json::array()}, {"shapes", json::array()}};
+    for (const model::ContactEnd& end : contact.ends) {
+      one["between"].push_back(end.body < 0 ? "world"
+                                            : model.skeleton.bodies[static_cast<std::size_t>(end.body)].name);
+      one["shapes"].push_back(contact::name_of(end.shape));
+    }
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 /// A link's name, or "world".
 json loops_json(const Model& model) {
   json list = json::array();
@@ -163,6 +177,7 @@ nlohmann::json model_json(const model::Model& model) {
           {"ratios", ratios_json(model)},
           {"inertias", inertias_json(model)},
           {"loops", loops_json(model)},
+          {"contacts", contacts_json(model)},
           {"effects", effects_json(model)},
           {"sensors", sensors_json(model)},
           {"contact_switches", switches_json(model)},

@@ -15,7 +15,7 @@ void Predictor::begin_nodes(const Window& window) {
   jumps_ = plant_.jumps();
   jump_nodes_.clear();
   events_seen_ = 0;
-  if (plant_.meets_ground() || !jumps_.empty()) {
+  if (plant_.meets_anything() || !jumps_.empty()) {
     node_of_sample_.assign(1, 0);
     node_times_.assign(1, 0.0);
   }
@@ -50,18 +50,24 @@ void Predictor::hold(const Window& window, Eigen::Index sample) {
   node_of_sample_.resize(static_cast<std::size_t>(window.count), node_of(sample));
 }
 
-// A foot that is not in the ground but would be there within two samples may meet it in this one.
+// A foot that is not in the ground but would be there within two samples may meet it in this one; links that
+// may meet each other likewise.
 bool Predictor::is_near_ground(Eigen::Index node) {
-  if (!plant_.meets_ground()) {
+  if (!plant_.meets_anything()) {
     return false;
   }
+  const auto is_near = [&](double depth, double rate) {
+    return depth > 0.0 || depth + 2.0 * trial_.period * rate > 0.0;
+  };
   for (std::size_t f = 0; f < plant_.model().feet.size(); ++f) {
     const model::FootDepth foot = plant_.foot_depth(static_cast<int>(f), states_.col(node).data());
-    if (foot.depth > 0.0 || foot.depth + 2.0 * trial_.period * foot.rate > 0.0) {
+    if (is_near(foot.depth, foot.rate)) {
       return true;
     }
   }
-  return false;
+  const std::vector<model::LinkTouch> links = plant_.link_touches(states_.col(node).data());
+  return std::any_of(links.begin(), links.end(),
+                     [&](const model::LinkTouch& one) { return is_near(one.depth, one.rate()); });
 }
 
 // Between two nodes that are not neighbours: do the ground's slopes at the middle hold over all of it? Every
@@ -76,10 +82,15 @@ bool Predictor::is_even(Eigen::Index from, Eigen::Index to, const std::vector<Cr
                   [&](const Crossing& crossing) { return inside(crossing.node); })) {
     return false;
   }
-  const auto depths_at = [&](Eigen::Index node) {  // of all feet at once: they share the kinematics
-    Eigen::ArrayXd depths(static_cast<Eigen::Index>(plant_.model().feet.size()));
-    for (Eigen::Index f = 0; f < depths.size(); ++f) {
+  const auto feet = static_cast<Eigen::Index>(plant_.model().feet.size());
+  const auto depths_at = [&](Eigen::Index node) {  // of all contacts at once: they share the kinematics
+    Eigen::ArrayXd depths(feet + plant_.link_points());
+    for (Eigen::Index f = 0; f < feet; ++f) {
       depths[f] = plant_.foot_depth(static_cast<int>(f), states_.col(node).data()).depth;
+    }
+    const std::vector<model::LinkTouch> links = plant_.link_touches(states_.col(node).data());
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      depths[feet + static_cast<Eigen::Index>(k)] = links[k].depth;
     }
     return depths;
   };

@@ -80,8 +80,8 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     const model::ContactSwitch* known = model.find_switch(record.name);
     foot_of_switch_.push_back(known == nullptr ? -1 : known->foot);
   }
-  if (plant_.meets_ground() && options_.method == integrate::Method::explicit_rk) {
-    options_.method = integrate::Method::rosenbrock;  // the ground is stiff
+  if (plant_.meets_anything() && options_.method == integrate::Method::explicit_rk) {
+    options_.method = integrate::Method::rosenbrock;  // contacts are stiff
   }
   command_samples_ = command_samples(model, trial.commands, trial.samples());
   refresh_commands();

@@ -42,6 +42,23 @@ void add_forces(model::Plant& plant, const Eigen::MatrixXd& states, Table& trace
   }
 }
 
+void add_contact_forces(model::Plant& plant, const Eigen::MatrixXd& states, Table& trace) {
+  const std::vector<model::LinkContact>& contacts = plant.model().contacts;
+  std::vector<Eigen::Matrix3Xd> forces(contacts.size(), Eigen::Matrix3Xd::Zero(3, states.cols()));
+  for (Eigen::Index k = 0; k < states.cols() && !contacts.empty(); ++k) {
+    const std::vector<Eigen::Vector3d> now = plant.contact_forces(states.col(k).data());
+    for (std::size_t c = 0; c < now.size(); ++c) {
+      forces[c].col(k) = now[c];
+    }
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (int axis = 0; axis < 3; ++axis) {
+      trace.columns.push_back(
+          {"F_" + contacts[c].name + "_" + "xyz"[axis], "N", forces[c].row(axis).transpose()});
+    }
+  }
+}
+
 Table trace_of(model::Plant& plant, const run::CommandedRun& run) {
   const model::Model& model = plant.model();
   Table trace;
@@ -62,6 +79,7 @@ Table trace_of(model::Plant& plant, const run::CommandedRun& run) {
     add_place(plant, motor.name, motor.angular, run.states, trace);
   }
   add_forces(plant, run.states, trace);
+  add_contact_forces(plant, run.states, trace);
   return trace;
 }
 

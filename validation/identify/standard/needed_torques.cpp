@@ -178,6 +178,9 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
   if (plant.meets_ground()) {
     refuse(trial, "feet on the ground, whose forces no motor makes");
   }
+  if (plant.link_points() > 0) {
+    refuse(trial, "links in contact with each other, whose forces no motor makes");
+  }
   const Places places = places_of(model, trial, plant);
   samples.moving = places.places;
   const std::string reason = measured::no_inverse(plant, samples.moving, trial);
