@@ -2,6 +2,7 @@
 
 #include "simulator/model/known_effects.h"
 #include "tests/battery/foreign_formulas.h"
+#include "tests/battery/foreign_told.h"
 
 namespace plumbline::battery {
 
@@ -9,6 +10,8 @@ effects::Catalogue every_law() {
   auto laws = model::known_effects().laws();
   const auto foreign = foreign_laws();
   laws.insert(laws.end(), foreign.begin(), foreign.end());
+  const auto told = told_laws();
+  laws.insert(laws.end(), told.begin(), told.end());
   return effects::Catalogue(std::move(laws));
 }
 

@@ -6,7 +6,7 @@
 
 namespace plumbline::battery {
 
-/// The laws that robot files know, and those of foreign_formulas.h.
+/// The laws that robot files know, and those of foreign_formulas.h and foreign_told.h.
 effects::Catalogue every_law();
 
 /// The model with a coordinate `toe_height` where it is the hopper, for a law of the ground that changes in

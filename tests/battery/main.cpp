@@ -19,7 +19,6 @@
 #include "tests/battery/result_json.h"
 #include "tests/battery/results_file.h"
 #include "tests/battery/sweep.h"
-#include "tests/battery/worlds/play.h"
 #include "work/workers.h"
 
 namespace plumbline::battery {
@@ -40,25 +39,32 @@ struct Inputs {
   std::vector<std::string> durations;
 };
 
+bool is_asked_for(const Case& one, const Inputs& inputs) {
+  const bool of_rigs = std::any_of(inputs.rigs.begin(), inputs.rigs.end(), [&](const std::string& rig) {
+    const std::vector<std::string> robots = robots_of_rig(rig);
+    return std::find(robots.begin(), robots.end(), one.robot) != robots.end();
+  });
+  return of_rigs && (inputs.only.empty() ||
+                     std::any_of(inputs.only.begin(), inputs.only.end(), [&](const std::string& word) {
+                       return one.name.find(word) != std::string::npos;
+                     }));
+}
+
 /// Cases of the rigs that the world can play, whose name contains one of the words; all when there are none.
-std::vector<Case> chosen(const std::vector<std::string>& rigs, const std::vector<std::string>& words,
-                         World world) {
-  std::vector<Case> cases = all_cases();
-  std::vector<std::string> robots;
-  for (const std::string& rig : rigs) {
-    const std::vector<std::string> of_rig = robots_of_rig(rig);
-    robots.insert(robots.end(), of_rig.begin(), of_rig.end());
-  }
-  const auto is_left_out = [&](const Case& one) {
-    if (std::find(robots.begin(), robots.end(), one.robot) == robots.end() ||
-        (world != World::own && !worlds::can_play(one, world == World::mujoco))) {
-      return true;
+/// Fills in why the others of them cannot be played, each reason once.
+std::vector<Case> chosen(const Inputs& inputs, std::set<std::string>& reasons) {
+  std::vector<Case> cases;
+  for (const Case& one : all_cases()) {
+    if (!is_asked_for(one, inputs)) {
+      continue;
     }
-    return !words.empty() && std::none_of(words.begin(), words.end(), [&](const std::string& word) {
-      return one.name.find(word) != std::string::npos;
-    });
-  };
-  cases.erase(std::remove_if(cases.begin(), cases.end(), is_left_out), cases.end());
+    const std::string reason = why_not(one, inputs.run.world);
+    if (reason.empty()) {
+      cases.push_back(one);
+    } else {
+      reasons.insert(reason);
+    }
+  }
   return cases;
 }
 
@@ -155,15 +161,6 @@ std::vector<Result> results_of(const std::vector<Case>& cases, const Inputs& inp
   return results;
 }
 
-/// Why the world plays none of the cases that were asked for, each reason once.
-std::set<std::string> reasons(const Inputs& inputs) {
-  std::set<std::string> all;
-  for (const Case& one : chosen(inputs.rigs, inputs.only, World::own)) {
-    all.insert(worlds::why_not(one, inputs.run.world == World::mujoco));
-  }
-  return all;
-}
-
 int sweep_policy(const std::vector<Case>& cases, const Inputs& inputs) {
   std::vector<Diagnose> all;
   if (!inputs.measured.trials.empty()) {
@@ -179,10 +176,10 @@ int sweep_policy(const std::vector<Case>& cases, const Inputs& inputs) {
 }
 
 int run(const Inputs& inputs, work::Workers& workers) {
-  const std::vector<Case> cases =
-      subset(chosen(inputs.rigs, inputs.only, inputs.run.world), inputs.subset, inputs.run.seed);
+  std::set<std::string> reasons;
+  const std::vector<Case> cases = subset(chosen(inputs, reasons), inputs.subset, inputs.run.seed);
   if (cases.empty()) {
-    for (const std::string& reason : reasons(inputs)) {
+    for (const std::string& reason : reasons) {
       fmt::print(stderr, "battery: {}\n", reason);
     }
     fmt::print(stderr, "battery: no case has such a name (--list shows all)\n");

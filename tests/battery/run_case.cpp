@@ -9,11 +9,13 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
 #include "tests/battery/draw.h"
 #include "tests/battery/foreign_laws.h"
+#include "tests/battery/foreign_told.h"
 #include "tests/battery/truth.h"
 #include "tests/battery/worlds/lab.h"
 #include "tests/battery/worlds/play.h"
@@ -175,6 +177,10 @@ void print_ladder(const validation::Diagnosis& diagnosis) {
 std::vector<validation::Trial> made(const RunOptions& options, const model::Model& bare, Draw& draw,
                                     std::vector<model::EffectUse>& hidden, Result& result) {
   const Case& one = result.one;
+  const std::string reason = why_not(one, options.world);
+  if (!reason.empty()) {
+    throw std::invalid_argument(reason);
+  }
   if (options.world == World::own) {
     const Truth truth = truth_of(one, bare, draw, options);
     hidden = truth.hidden;
@@ -264,6 +270,15 @@ std::string to_string(World world) {
 bool Recovered::is_inside() const {
   constexpr double kDeviations = 1.96;
   return std::abs(value - truth) <= kDeviations * deviation;
+}
+
+std::string why_not(const Case& one, World world) {
+  if (world != World::own) {
+    return worlds::why_not(one, world == World::mujoco);
+  }
+  const auto told =
+      std::find_if(one.rows.begin(), one.rows.end(), [](const Row& row) { return is_told(row.effect); });
+  return told == one.rows.end() ? "" : "only the foreign worlds have " + told->effect;
 }
 
 Result run_case(const Case& one, const RunOptions& options) {

@@ -72,6 +72,9 @@ struct RunOptions {
       kept{};  ///< of diagnoses of the same case; none: of this one alone
 };
 
+/// Why the world does not play the case; empty: it does.
+std::string why_not(const Case& one, World world);
+
 /// Never throws for a case that fails: the reason is in Result::error.
 Result run_case(const Case& one, const RunOptions& options);
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/battery/worlds/outside.h"
+
 namespace plumbline::battery::worlds {
 namespace {
 
@@ -127,33 +129,14 @@ const Named* find(const std::string& name) {
 }
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
-constexpr std::array kOthers{"torque_bias",
-                             "torque_ripple",
-                             "winding",
-                             "battery",
-                             "harmonic_drive",
-                             "sensor_lag",
-                             "torque_saturation",
-                             "voltage_limit",
-                             "thermal_motor",
-                             "torque_constant_error",
-                             "actuator_lag",
-                             "current_loop",
-                             "command_delay",
-                             "clock_drift",
-                             "rotor_inertia",
-                             "cable_stretch",
-                             "backlash",
-                             "added_mass",
-                             "com_shift",
-                             "payload",
-                             "gravity_tilt",
-                             "encoder_offset",
-                             "encoder_scale",
-                             "encoder_eccentricity",
-                             "ground_stiffness_error",
-                             "ground_damping_error",
-                             "ground_friction_error"};
+constexpr std::array kOthers{
+    "torque_bias", "torque_ripple", "winding", "battery", "harmonic_drive", "sensor_lag", "torque_saturation",
+    "voltage_limit", "thermal_motor", "torque_constant_error", "actuator_lag", "current_loop",
+    "command_delay", "clock_drift", "rotor_inertia", "cable_stretch", "backlash", "added_mass", "com_shift",
+    "payload", "gravity_tilt", "encoder_offset", "encoder_scale", "encoder_eccentricity",
+    "ground_stiffness_error", "ground_damping_error", "ground_friction_error",
+    // Laws that no catalogue has; equations in outside.cpp.
+    "creeping_load", "tilting_mount", "held_reading", "heavy_bit", "slow_reversal", "weakening_ends"};
 
 }  // namespace
 
@@ -238,7 +221,7 @@ void state_rates(const Hidden& effect, const PlaceMotion& m, const double* state
 
 bool is_of_drive(const Hidden& effect) {
   return effect.effect == "torque_saturation" || effect.effect == "voltage_limit" ||
-         effect.effect == "torque_ripple";
+         effect.effect == "torque_ripple" || effect.effect == "weakening_ends";
 }
 
 // The circuit of the winding, in units in which the torque constant is 1: voltage and speed, current and
@@ -248,6 +231,9 @@ double delivered(const Hidden& effect, double asked, double x, double v) {
     const double phase = std::atan2(effect["sine"], effect["cosine"]);
     return asked *
            (1.0 + std::hypot(effect["sine"], effect["cosine"]) * std::cos(effect["cycles"] * x - phase));
+  }
+  if (effect.effect == "weakening_ends") {
+    return weakened(effect, asked, x);
   }
   if (effect.effect == "torque_saturation") {
     const double limit = 1.0 / std::sqrt(effect["sag"]);

@@ -37,8 +37,8 @@ double force(const Hidden& effect, const PlaceMotion& m, const double* states);
 void state_rates(const Hidden& effect, const PlaceMotion& m, const double* states, double* rates);
 
 bool is_of_drive(const Hidden& effect);
-/// Of a motor's winding, iron and slots (voltage_limit, torque_saturation, torque_ripple): the torque that
-/// comes of what the amplifier is asked for at angle x and speed v.
+/// Of a motor's winding, iron and slots (voltage_limit, torque_saturation, torque_ripple, weakening_ends):
+/// the torque that comes of what the amplifier is asked for at angle x and speed v.
 double delivered(const Hidden& effect, double asked, double x, double v);
 /// Rate of the torque of a winding with an inductance.
 double current_rate(const Hidden& winding, double asked, double current, double v);

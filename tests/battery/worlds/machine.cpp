@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/battery/worlds/outside.h"
+
 namespace plumbline::battery::worlds {
 namespace {
 
@@ -104,6 +106,9 @@ void Machine::add_effects() {
       circuits_.push_back({i, static_cast<int>(states_++), effect});
       continue;
     }
+    if (add_outside(effect, i)) {
+      continue;
+    }
     if (effect.effect == "battery") {
       batteries_.push_back(effect);
       continue;
@@ -192,7 +197,8 @@ State Machine::start_state(const Vector& commands, const Vector& links_rate) con
   }
   State x = state_of(full, full_rate);
   for (const Loop& loop : loops_) {
-    x[loop.state] = commands[static_cast<Eigen::Index>(loop.motor)];
+    const double command = commands[static_cast<Eigen::Index>(loop.motor)];
+    x[loop.state] = loop.effect.effect == "slow_reversal" ? std::copysign(1.0, command) : command;
   }
   for (const Loop& one : circuits_) {
     x[one.state] = rig_.motors[one.motor].torque_per_unit * commands[static_cast<Eigen::Index>(one.motor)];
@@ -217,6 +223,9 @@ double Machine::force_of(const Acting& one, const State& x, const Vector& full, 
 
 // A current on a spring w^2 and a damper 2 zeta w, pulled by what is asked for. States: current and its rate.
 double Machine::through(const Loop& loop, double asked, const State& x, State& rate) {
+  if (loop.effect.effect == "slow_reversal") {
+    return turned_round(loop.effect, asked, x[loop.state], rate[loop.state]);
+  }
   const double w = 1.0 / loop.effect["time_constant"];
   const double current = x[loop.state];
   rate[loop.state] = x[loop.state + 1];
@@ -307,7 +316,7 @@ void Machine::rates(const Vector& commands, Creeping who, const State& x, State&
   creep(who, x, full, full_rate);
   Matrix links = Matrix::Zero(n_, n_);
   Vector bias = Vector::Zero(n_);
-  rig_.equations(rig_, full.head(n_), full_rate.head(n_), links, bias);
+  equations(x, full.head(n_), full_rate.head(n_), links, bias, rate);
   Vector motors(static_cast<Eigen::Index>(rig_.motors.size()));
   for (std::size_t i = 0; i < rig_.motors.size(); ++i) {
     motors[static_cast<Eigen::Index>(i)] = rig_.motors[i].inertia;
@@ -380,7 +389,8 @@ Eigen::VectorXd readings_of(const Rig& rig, const Vector& full) {
       }
     }
     values[static_cast<Eigen::Index>(s)] = sensor.scale * actual + sensor.offset +
-                                           sensor.amplitude * std::cos(sensor.waves * actual - sensor.phase);
+                                           sensor.amplitude * std::cos(sensor.waves * actual - sensor.phase) +
+                                           bit_error(sensor.bit_error, sensor.bit_step, actual);
   }
   return values;
 }

@@ -69,7 +69,8 @@ class Machine {
     Law law = nullptr;  // nullptr: it needs a state, or is a compliance
   };
 
-  /// A current loop of second order, what warms (two states), or a winding's current (one).
+  /// A current loop of second order, an amplifier that turns round slowly, what warms (two states), or a
+  /// winding's current (one).
   struct Loop {
     std::size_t motor = 0;
     int state = 0;
@@ -78,6 +79,12 @@ class Machine {
 
   /// A set of light coordinates, a bit each.
   using Creeping = unsigned;
+  /// What wanders by itself: a load on a link (its distance), the mounting (its tilt).
+  struct Wandering {
+    Hidden effect;
+    Vector row;
+    int state = 0;
+  };
   /// A coordinate that creeps behind a stop.
   struct Light {
     Eigen::Index row = 0, column = 0;
@@ -91,6 +98,12 @@ class Machine {
   void add_bristles();
   void add_effects();
   void add_light();
+  /// Of outside.h, with a state of its own; false: it is none of these.
+  bool add_outside(const Hidden& effect, std::size_t motor);
+  /// The links' equations with what wanders.
+  void equations(const State& x, const Vector& p, const Vector& v, Matrix& links, Vector& bias,
+                 State& rate) const;
+  void tilt(double angle, const Vector& p, const Vector& v, Vector& bias) const;
   double force_of(const Acting& one, const State& x, const Vector& full, const Vector& full_rate,
                   double load) const;
   bool is_behind(const Light& one, const Vector& full) const;
@@ -122,6 +135,8 @@ class Machine {
   std::vector<int> lag_state_;  // of each motor; -1: none
   std::vector<double> lag_, bias_, delay_, drift_;
   std::vector<Loop> loops_, warming_, circuits_;
+  std::vector<Wandering> loads_, tilting_;
+  std::vector<Rig> gravities_;  // for a mounting that tilts: none, upright, on its side
   std::vector<Hidden> batteries_;
   std::vector<std::pair<std::size_t, Hidden>> windings_;  // of which motor, in order of action
   bool load_matters_ = false;

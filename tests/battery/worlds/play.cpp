@@ -26,11 +26,12 @@ std::string in_root(const std::string& file) { return std::string(PLUMBLINE_ROOT
 constexpr std::array<double, 8> kUnusualCycles{5, 9, 11, 13, 15, 17, 26, 33};
 constexpr double kExponentSpread = 0.5;  // of Stribeck's exponent about 2: half to two is reported for oils
 
-constexpr std::array<const char*, 6> kBeyondMujoco{"resonator", "current_loop",      "thermal_motor",
-                                                   "winding",   "slipping_coupling", "battery"};
+constexpr std::array kBeyondMujoco{"resonator",     "current_loop",      "thermal_motor",
+                                   "winding",       "slipping_coupling", "battery",
+                                   "creeping_load", "tilting_mount",     "slow_reversal"};
 
-bool contains(const std::array<const char*, 6>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_beyond_mujoco(const std::string& name) {
+  return std::find(kBeyondMujoco.begin(), kBeyondMujoco.end(), name) != kBeyondMujoco.end();
 }
 
 /// Constants of shape as few robots have them; no fit moves Stribeck's exponent.
@@ -122,7 +123,7 @@ std::string why_not(const Case& one, bool mujoco) {
     return "MuJoCo has no robot that hops under a controller";
   }
   for (const Row& row : one.rows) {
-    if (mujoco && contains(kBeyondMujoco, row.effect)) {
+    if (mujoco && is_beyond_mujoco(row.effect)) {
       return "MuJoCo's robots have no states of their own, and no battery";
     }
     if (!is_known(row.effect)) {

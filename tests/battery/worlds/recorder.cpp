@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/battery/worlds/mujoco_rig.h"
+#include "tests/battery/worlds/outside.h"
 
 namespace plumbline::battery::worlds {
 namespace {
@@ -93,8 +94,10 @@ Vector positions_between(const Motion& motion, double at, double period) {
 Eigen::VectorXd readings_at(const Rig& rig, const Motion& motion, Eigen::Index k, double period) {
   Eigen::VectorXd readings = readings_of(rig, motion.positions.col(k));
   for (std::size_t s = 0; s < rig.sensors.size(); ++s) {
-    if (rig.sensors[s].late != 0.0) {
-      const double at = static_cast<double>(k) - rig.sensors[s].late / period;
+    const double share = rig.sensors[s].held_share;
+    const int held = share > 0.0 ? held_for(share, k) : 0;
+    if (rig.sensors[s].late != 0.0 || held > 0) {
+      const double at = static_cast<double>(k - held) - rig.sensors[s].late / period;
       const auto i = static_cast<Eigen::Index>(s);
       readings[i] = readings_of(rig, positions_between(motion, at, period))[i];
     }

@@ -202,6 +202,15 @@ bool change_sensor(const Hidden& e, Sensor& sensor) {
     sensor.scale *= e["scale"];
     return true;
   }
+  if (e.effect == "held_reading") {
+    sensor.held_share += e["share"];
+    return true;
+  }
+  if (e.effect == "heavy_bit") {
+    sensor.bit_error = e["error"];
+    sensor.bit_step = e["step"];
+    return true;
+  }
   return false;
 }
 
@@ -294,7 +303,7 @@ void hide(const Hidden& effect, Rig& rig) {
   if (change_numbers(effect, rig)) {
     return;
   }
-  const bool is_anywhere = effect.effect == "battery";
+  const bool is_anywhere = effect.effect == "battery" || effect.effect == "tilting_mount";
   if (!is_anywhere && rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
     throw std::invalid_argument("the rig has no place " + effect.at + " for " + effect.effect);
   }

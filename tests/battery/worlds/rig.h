@@ -53,6 +53,8 @@ struct Sensor {
   double scale = 1.0, offset = 0.0;
   double late = 0.0;                                 ///< shows what was so many seconds earlier
   double waves = 0.0, amplitude = 0.0, phase = 0.0;  ///< of an eccentric disc: amplitude cos(waves x - phase)
+  double bit_error = 0.0, bit_step = 1.0;            ///< outside.h
+  double held_share = 0.0;                           ///< chance that a reading is held for two samples
 };
 
 struct Rig;
