@@ -27,6 +27,17 @@ double length_of(const Followed& followed) {
   return is_whole(followed) ? std::numeric_limits<double>::infinity() : followed.length;
 }
 
+/// Have most of the model's own numbers gone as far as what is stated of them lets them? Then they make up
+/// for something that is not there.
+bool most_are_at_limits(const Stage& stage, double width) {
+  constexpr double kAlmost = 0.999;
+  const std::vector<OwnParameter> own = own_values(stage);
+  const auto at_limits = std::count_if(own.begin(), own.end(), [&](const OwnParameter& one) {
+    return std::abs(one.shift()) >= kAlmost * width;
+  });
+  return 2 * static_cast<std::size_t>(at_limits) > own.size();
+}
+
 }  // namespace
 
 Diagnoser::Diagnoser(const effects::Catalogue& catalogue, const Followed& followed, const Policy& policy,
@@ -137,11 +148,7 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
     return;
   }
   if (!helps(given, fitted)) {
-    look(policy_.most_as_stated, diagnosis);
-    if (!speaks_for_stated(diagnosis)) {
-      restart({given, fitted}, diagnosis);
-      look(policy_.most_effects, diagnosis);
-    }
+    look_as_stated_first(given, fitted, diagnosis);
     return;
   }
   restart({given, fitted}, diagnosis);
@@ -162,9 +169,29 @@ void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Dia
   }
 }
 
+// Where the data do not speak for the stated numbers both ways are gone, and prediction decides.
+void Diagnoser::look_as_stated_first(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
+  look(policy_.most_as_stated, diagnosis);
+  if (speaks_for_stated(diagnosis)) {
+    return;
+  }
+  Diagnosis stated = std::move(diagnosis);
+  Tried first = std::move(first_);
+  diagnosis.lost = stated.lost;
+  restart({given, fitted}, diagnosis);
+  look(policy_.most_effects, diagnosis);
+  if (!stated.accepted.empty() &&
+      judged(stated.final_stage.estimate, data_) < judged(diagnosis.final_stage.estimate, data_)) {
+    diagnosis = std::move(stated);
+    first_ = std::move(first);
+    look(policy_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
+  }
+}
+
 bool Diagnoser::helps(const Rung& given, const Rung& fitted) const {
   const double before = judged(given.stage.estimate, data_);
-  return before > policy_.finished && judged(fitted.stage.estimate, data_) < before;
+  return before > policy_.finished && judged(fitted.stage.estimate, data_) < before &&
+         !most_are_at_limits(fitted.stage, policy_.parameter_width);
 }
 
 double Diagnoser::evidence(const Diagnosis& diagnosis) const {

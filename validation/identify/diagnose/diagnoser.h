@@ -47,7 +47,10 @@ class Diagnoser {
   /// is named beside which the data speak against them, or if no answer was found: it would have been one
   /// with free numbers, too.
   void look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis);
-  /// What is left above the floor with the numbers fitted is less than half of what was.
+  /// First with the numbers as stated, and where the data do not speak for them also with the fitted ones;
+  /// what predicts better stays.
+  void look_as_stated_first(const Rung& given, const Rung& fitted, Diagnosis& diagnosis);
+  /// The fitted numbers lower the error, and at most half of them stand at the limits of what is stated.
   bool helps(const Rung& given, const Rung& fitted) const;
   double evidence(const Diagnosis& diagnosis) const;
   /// An answer at the floor that would be improbable if the model's own numbers were not exactly as stated.
