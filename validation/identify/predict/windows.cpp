@@ -25,7 +25,7 @@ constexpr double kStiff = 16.0;
 
 /// Temperatures are carried from the beginning of the record, where the motor is taken as cold, through its
 /// gaps, in which commands are held. What is longer ago than this, s, counts by its heat alone,
-constexpr double kHeat = 1800.0;
+constexpr double kHeat = 60.0;
 /// in steps of so many s.
 constexpr double kLongAgo = 1.0;
 
