@@ -57,6 +57,11 @@ void run(const Options& options) {
 
 void add_options(CLI::App& command, Options& options) {
   add_trial_inputs(command, options.inputs);
+  command
+      .add_option("--windows", options.inputs.most_windows,
+                  "use N windows at most of the train trials and of the held-out ones each, as diagnose does")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command.add_option("-o,--out", options.out, "the page, one HTML file")->required()->type_name("FILE");
   CLI::Option* none = command.add_flag("--no-diagnose", options.request.no_diagnose,
                                        "compare only: the model and those it stands on");

@@ -14,6 +14,7 @@
 #include "validation/report/model_json.h"
 #include "validation/report/parameters_json.h"
 #include "validation/report/result_json.h"
+#include "validation/report/temperatures.h"
 #include "validation/report/traces.h"
 #include "validation/report/whole_trials.h"
 
@@ -181,6 +182,7 @@ json report_json(const ReportContent& content, const Data& data, const Progress&
     const std::vector<Block> blocks =
         drawing_blocks(data.trials[t].samples(), details[t], points, content.drawing.detail);
     report["trials"].push_back(trial_json(data, t, drawn, blocks));
+    report["trials"].back()["temperatures"] = temperatures_json(fitted_model(last), data.trials[t], blocks);
   }
   return report;
 }

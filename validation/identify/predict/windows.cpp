@@ -23,9 +23,11 @@ long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::c
 /// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
 constexpr double kStiff = 16.0;
 
-/// Temperatures are carried from the beginning of the record, where the motor is taken as cold; of a longer
-/// one over this time, s.
-constexpr double kHeat = 1800.0;
+/// Temperatures are carried from the beginning of the record, where the motor is taken as cold, through its
+/// gaps, in which commands are held. What is longer ago than this, s, counts by its heat alone,
+constexpr double kHeat = 60.0;
+/// in steps of so many s.
+constexpr double kLongAgo = 1.0;
 
 /// Does a state of the plant change over minutes: a temperature?
 bool remembers_heat(const model::Plant& plant) {
@@ -34,6 +36,25 @@ bool remembers_heat(const model::Plant& plant) {
   return std::any_of(carried.begin(), carried.end(), [&](int i) {
     return names[static_cast<std::size_t>(i)].find("temperature of ") != std::string::npos;
   });
+}
+
+/// Hidden states from the first sample to sample `to` under the root mean square of each step's commands,
+/// which is what heats; other states forget this. The robot stands at `motion`.
+void heat_up(const model::Plant& plant, const integrate::HeldCommands& commands, Eigen::Index to,
+             double period, const double* motion, double* x) {
+  const auto many = std::max<Eigen::Index>(1, std::lround(kLongAgo / period));
+  Eigen::VectorXd command(plant.motors());
+  for (Eigen::Index k = 0; k < to; k += many) {
+    const Eigen::Index end = std::min(to, k + many);
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(plant.motors());
+    for (Eigen::Index i = k; i < end; ++i) {
+      commands.at(i, 0, command.data());
+      squares += command.cwiseAbs2();
+    }
+    const auto count = static_cast<double>(end - k);
+    command = (squares / count).cwiseSqrt();
+    plant.carry_states(motion, motion, command.data(), count * period, x);
+  }
 }
 
 /// Channels x samples.
@@ -139,16 +160,20 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   if (hidden.empty() || too_short) {
     return;
   }
-  const auto history = remembers_heat(plant_) ? kHeat : options_.history;
-  const auto reach = static_cast<Eigen::Index>(std::lround(history / trial_.period));
+  const bool is_warm = remembers_heat(plant_);
+  const auto reach =
+      static_cast<Eigen::Index>(std::lround((is_warm ? kHeat : options_.history) / trial_.period));
   Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
   for (const Stretch& stretch : trial_.stretches) {
-    from = stretch.first <= window.first ? std::max(from, stretch.first) : from;
+    from = stretch.first <= window.first && !is_warm ? std::max(from, stretch.first) : from;
   }
   measure_motion(from, window.first);
   Eigen::VectorXd command(plant_.motors());
-  commands_->at(from, 0, command.data());
+  commands_->at(is_warm ? 0 : from, 0, command.data());
   plant_.settle(command.data(), x);
+  if (is_warm) {
+    heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);
+  }
   const std::vector<double>& breaks = commands_->breaks();
   for (Eigen::Index k = from; k < window.first; ++k) {
     for (std::size_t b = 0; b < breaks.size(); ++b) {
