@@ -1,10 +1,12 @@
-// Derivatives of windows in which two links strike each other.
+// Windows in which two links strike each other: derivatives, and a fit.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "simulator/model/known_effects.h"
 #include "simulator/model/robot_file.h"
+#include "validation/identify/fit/fit.h"
 #include "validation/identify/fit/free_parameters.h"
 #include "validation/identify/predict/windows.h"
 #include "validation/identify/twin/twin.h"
@@ -31,6 +33,16 @@ class Bumpers : public testing::Test {
       }
     }
     return -1;
+  }
+
+  model::Model with_stiffness(double stiffness) const {
+    model::Model model = model_;
+    for (model::EffectUse& use : model.effects) {
+      if (use.law->declaration().name == "ground_normal") {
+        use.values[0].value = stiffness;
+      }
+    }
+    return model;
   }
 
   model::Model model_;
@@ -80,6 +92,27 @@ TEST_F(Bumpers, DerivativesAgreeWithDifferences) {
         plant.model().effects[static_cast<std::size_t>(parameters[p].id.effect)].at == "bump" ? 1 : 0;
   }
   EXPECT_GE(of_contact, 2);  // stiffness and damping at least
+}
+
+// A twin whose ball is a half stiffer than the model says, by two trials: the fit finds it within its
+// interval.
+TEST_F(Bumpers, AFitFindsTheStiffnessOfTheContact) {
+  const model::Model truth = with_stiffness(1.5e5);
+  std::vector<Trial> trials;
+  for (const char* name : {"push", "swing"}) {
+    trials.push_back(
+        twin(truth, read_experiment(std::string(kFolder) + "experiments/" + name + ".yaml", truth), {}));
+  }
+  trials.front().name = trials.front().file = "push";
+  trials.back().name = trials.back().file = "swing";
+  const Data data(std::move(trials), {});
+  const auto silent = [](const std::string& /*what*/, double /*fraction*/) {};
+  const Fit found =
+      fit(model_, data, matching(free_parameters(model_), {"ground_normal@bump:stiffness"}), {}, silent);
+  ASSERT_EQ(found.parameters.size(), 1U);
+  EXPECT_LT(std::abs(found.parameters[0].after - 1.5e5), 0.05 * 1.5e5);
+  EXPECT_LE(found.parameters[0].lower, 1.5e5);
+  EXPECT_GE(found.parameters[0].upper, 1.5e5);
 }
 
 }  // namespace
