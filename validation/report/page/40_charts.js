@@ -184,7 +184,7 @@ function addChannel(box, c) {
     [timeOf(trial), curves.residual], [shadeFloor(channel.floor)]);
 }
 
-/** The temperature of a motor under the last model, which no sensor shows. */
+/** The temperature of a motor under the last model, which no sensor shows; whichever model is drawn. */
 function addTemperature(box, n) {
   const trial = trialShown();
   const hidden = trial.temperatures[n];
@@ -194,7 +194,7 @@ function addTemperature(box, n) {
   const [low, high] = values.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
   const figure = make("div", { class: "chart", "data-temperature": hidden.state });
   figure.append(make("h3", {}, hidden.state.replace(/_/g, " "),
-    make("small", {}, `not measured: from the recorded commands, cold at first, ${withUnit(low, hidden.unit, 4)} to ${withUnit(high, hidden.unit, 4)}`)));
+    make("small", {}, `under ${report.drawn[report.drawn.length - 1]}, not measured: from the recorded commands, cold at first, ${withUnit(low, hidden.unit, 4)} to ${withUnit(high, hidden.unit, 4)}`)));
   box.append(figure);
   chart(figure, 150, hidden.unit, { span: 1 }, [line("temperature", modelClass(report.drawn.length - 1), { width: 1.4 })], [timeOf(trial), values], []);
 }
@@ -204,7 +204,7 @@ function drawCharts() {
   const box = $("charts");
   box.replaceChildren();
   channelOrder().forEach((c) => addChannel(box, c));
-  if (state.model === report.drawn.length - 1) trialShown().temperatures.forEach((_, n) => addTemperature(box, n));
+  trialShown().temperatures.forEach((_, n) => addTemperature(box, n));
   box.append(...trialShown().switches.map((one) => make("p", { class: "note" },
     `Contact switch ${one.sensor}: touchdown and lift-off are predicted to ${number(1e3 * one.models[state.model].rms)} ms rms, ${ratio(one.models[state.model].ratio)} times the floor of ${number(1e3 * one.floor)} ms.`)));
   applyRange();
