@@ -179,9 +179,19 @@ void Diagnoser::look_as_stated_first(const Rung& given, const Rung& fitted, Diag
   Tried first = std::move(first_);
   diagnosis.lost = stated.lost;
   restart({given, fitted}, diagnosis);
-  look(policy_.most_effects, diagnosis);
-  if (!stated.accepted.empty() &&
-      judged(stated.final_stage.estimate, data_) < judged(diagnosis.final_stage.estimate, data_)) {
+  const auto stated_is_better = [&] {
+    return !stated.accepted.empty() &&
+           judged(stated.final_stage.estimate, data_) < judged(diagnosis.final_stage.estimate, data_);
+  };
+  try {
+    look(policy_.most_effects, diagnosis);
+  } catch (const Stopped&) {  // what was found is not lost
+    if (stated_is_better()) {
+      diagnosis = std::move(stated);
+    }
+    throw;
+  }
+  if (stated_is_better()) {
     diagnosis = std::move(stated);
     first_ = std::move(first);
     look(policy_.most_effects - static_cast<int>(diagnosis.accepted.size()), diagnosis);
