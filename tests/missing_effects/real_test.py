@@ -11,9 +11,12 @@ import zlib
 
 import numpy as np
 
+import fetch_recordings
 import real_cases
 
 BENCHMARK = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "benchmark")
+sys.path.insert(0, os.path.join(BENCHMARK, "entrants"))
+import rigid  # noqa: E402
 
 
 def element(kind, body):
@@ -29,6 +32,54 @@ def mat(path, arrays):
                       + element(1, name.encode()) + element(9, np.asarray(values, "<f8").tobytes()))
             packed = zlib.compress(element(14, matrix))
             file.write(struct.pack("<II", 15, len(packed)) + packed)
+
+
+TURNED_LINK = """<robot name="r"><link name="world"/>
+<link name="bar"><inertial><origin xyz="0.5 0 0"/><mass value="2"/><inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>
+<joint name="hinge" type="continuous"><parent link="world"/><child link="bar"/><origin xyz="0 0 0" rpy="0 0.5235987755982988 0"/>
+<axis xyz="0 1 0"/></joint></robot>"""
+
+
+class Arm(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = folder.name
+
+    def test_case_of_raw_columns(self):
+        rows = []
+        for k in range(4000):  # time, positions, speeds, currents, and what the recording has behind them
+            row = [100.0 + 0.01 * k] + [0.1 * j for j in range(6)] + [9.0] * 6 + [0.5 + j for j in range(6)] + [7.0] * 12
+            rows.append(",".join(f"{x:.4f}" for x in row))
+        os.makedirs(os.path.join(self.root, "ur10e-payload"))
+        with open(os.path.join(self.root, "ur10e-payload", "loaded.csv"), "w", encoding="utf-8") as file:
+            file.write(fetch_recordings.converted("\n".join(rows)))
+        subprocess.run([sys.executable, os.path.join(BENCHMARK, "real_cases.py"), "--data", self.root, "--out", self.root, "--only", "ur10e"],
+                       check=True, capture_output=True)
+        with open(os.path.join(self.root, "cases/real_ur10e/case.json"), encoding="utf-8") as file:
+            case = json.load(file)
+        table = {}
+        with open(os.path.join(self.root, "cases/real_ur10e/train_1.csv"), encoding="utf-8") as file:
+            names = [cell.split(" [")[0] for cell in file.readline().split(",")]
+            table = dict(zip(names, (float(x) for x in file.readline().split(","))))
+        self.assertAlmostEqual(table["q_elbow"], 0.2, places=6)
+        self.assertAlmostEqual(table["u_elbow"], 8.46 * 2.5, places=4)  # amperes times the stated gain
+        self.assertEqual(case["drives"][0]["joint_friction"]["value"], 12.5)
+        with open(os.path.join(self.root, "cases/real_ur10e/robot.urdf"), encoding="utf-8") as file:
+            robot = file.read()
+        self.assertIn('name="world"', robot)
+        self.assertNotIn("flange", robot)
+        self.assertNotIn("2.805", json.dumps(case))
+
+    def test_turned_frames(self):
+        """A bar that its joint's frame holds 30 degrees below the horizontal: m g l cos(30 deg + q), about y downwards."""
+        path = os.path.join(self.root, "robot.urdf")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(TURNED_LINK)
+        q = np.array([[0.0], [0.3]])
+        torque = rigid.Chain(path, 9.81).needed(q, 0 * q, 0 * q)
+        for angle, found in zip(q[:, 0], torque[:, 0]):
+            self.assertAlmostEqual(found, -2 * 9.81 * 0.5 * np.cos(np.pi / 6 + angle), places=9)
 
 
 class Real(unittest.TestCase):
