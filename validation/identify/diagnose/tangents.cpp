@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "validation/identify/diagnose/first_of_each.h"
+#include "validation/identify/predict/spread.h"
 
 namespace plumbline::validation {
 namespace {
@@ -80,8 +81,9 @@ Reduced silent(const Estimate& stage, std::size_t window, Eigen::Index parameter
 std::vector<Reduced> linearise(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                const Eigen::VectorXd& theta, const Estimate& stage,
                                const Eigen::VectorXd& units) {
-  std::vector<Reduced> all(pool.data().windows.size());
-  parallel_for(static_cast<int>(all.size()), pool.data().threads, [&](int w) {
+  const Data& data = pool.data();
+  std::vector<Reduced> all(data.windows.size());
+  const auto work = [&](int w) {
     const auto i = static_cast<std::size_t>(w);
     try {
       all[i] = reduce(pool, {w}, parameters, theta, stage.x0, units).front();
@@ -90,7 +92,9 @@ std::vector<Reduced> linearise(PredictorPool& pool, const std::vector<FreeParame
     } catch (const std::runtime_error&) {
       all[i] = silent(stage, i, units.size());
     }
-  });
+  };
+  for_each_item(data, static_cast<int>(all.size()),
+                spread_of("linearising a window", pool.model(), parameters.size(), work, all));
   return all;
 }
 
