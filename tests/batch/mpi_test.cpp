@@ -23,10 +23,13 @@ class OnRanks : public BatchFolder {
   JobOutcome run(int ranks, const std::vector<std::string>& arguments) const {
     return run_job(command(ranks, arguments), folder);
   }
-  /// Kills a rank after some time; false when all was done before.
+  /// Kills a rank some time after there are any; false when all was done before.
   bool killed(int ranks, const std::vector<std::string>& arguments, int milliseconds,
               std::size_t which) const {
     MpiJob job(command(ranks, arguments), folder);
+    while (job.is_running() && job.ranks().empty()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     const std::vector<pid_t> processes = job.ranks();
     const bool is_running = job.is_running() && !processes.empty();
