@@ -163,7 +163,7 @@ std::vector<Hypothesis> first_lot(const std::vector<Candidate>& candidates,
 
 Tangents::Tangents(const Stage& stage, const std::vector<Candidate>& candidates,
                    const std::vector<Hypothesis>& hypotheses, const Data& data)
-    : stage_(stage), hypotheses_(hypotheses), own_(hypotheses.size()) {
+    : stage_(stage), hypotheses_(hypotheses), threads_(data.threads), own_(hypotheses.size()) {
   model::Model model = stage.model;
   std::vector<FreeParameter> parameters = stage.parameters;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
@@ -227,20 +227,28 @@ Eigen::VectorXd Tangents::full_step(const Solution& solution, const std::vector<
   return step;
 }
 
+Hypothesis Tangents::promised(std::size_t h) const {
+  const Solution solution = solve({h});
+  Hypothesis hypothesis = hypotheses_[h];
+  hypothesis.promised_train = solution.promise.train;
+  hypothesis.promised_held_out = solution.promise.held_out;
+  hypothesis.x0 = states_after(solution);
+  hypothesis.step = full_step(solution, {h});
+  return hypothesis;
+}
+
 std::vector<Hypothesis> Tangents::promises() const {
-  std::vector<Hypothesis> found;
+  std::vector<std::size_t> those;
   for (std::size_t h = 0; h < hypotheses_.size(); ++h) {
-    if (moving_[h].empty()) {
-      continue;
+    if (!moving_[h].empty()) {
+      those.push_back(h);
     }
-    const Solution solution = solve({h});
-    Hypothesis hypothesis = hypotheses_[h];
-    hypothesis.promised_train = solution.promise.train;
-    hypothesis.promised_held_out = solution.promise.held_out;
-    hypothesis.x0 = states_after(solution);
-    hypothesis.step = full_step(solution, {h});
-    found.push_back(std::move(hypothesis));
   }
+  std::vector<Hypothesis> found(those.size());
+  parallel_for(static_cast<int>(those.size()), threads_, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    found[at] = promised(those[at]);
+  });
   return found;
 }
 

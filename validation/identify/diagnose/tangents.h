@@ -37,12 +37,14 @@ class Tangents {
     Promise promise;
   };
   Solution solve(const std::vector<std::size_t>& some) const;
+  Hypothesis promised(std::size_t h) const;
   std::vector<Eigen::VectorXd> states_after(const Solution& solution) const;
   Eigen::VectorXd full_step(const Solution& solution, const std::vector<std::size_t>& some) const;
   std::vector<std::pair<std::size_t, std::size_t>> shortlist(std::size_t most) const;
 
   const Stage& stage_;
   std::vector<Hypothesis> hypotheses_;
+  int threads_;
   std::vector<std::vector<Eigen::Index>> own_;     // columns of each hypothesis
   std::vector<std::vector<Eigen::Index>> moving_;  // those of them that matter
   std::vector<Reduced> reduced_;                   // by window
