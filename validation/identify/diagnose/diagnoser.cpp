@@ -177,6 +177,7 @@ void Diagnoser::look_as_stated_first(const Rung& given, const Rung& fitted, Diag
   }
   Diagnosis stated = std::move(diagnosis);
   Tried first = std::move(first_);
+  diagnosis = {};
   diagnosis.lost = stated.lost;
   restart({given, fitted}, diagnosis);
   const auto stated_is_better = [&] {

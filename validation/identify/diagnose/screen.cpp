@@ -92,6 +92,7 @@ void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
 void screen_ahead(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
                   const Part& part, const std::vector<Hypothesis>& starts) {
   std::vector<Ahead> pieces;
+  pieces.reserve(starts.size());
   for (const Hypothesis& start : starts) {
     pieces.push_back({"screening " + candidates[static_cast<std::size_t>(start.candidate)].label(), [&] {
                         Hypothesis copy = start;
@@ -246,6 +247,7 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
                 const Part& part, const Progress& progress, std::vector<Hypothesis>& found) {
   std::vector<SecondLook> looks = second_looks(stage, candidates, found);
   std::vector<Hypothesis> starts;
+  starts.reserve(looks.size());
   for (const SecondLook& look : looks) {
     starts.push_back(look.again);
   }
