@@ -33,11 +33,7 @@ class LoadedArm:
     source = "2.805 kg were at the flange (estimate_drive_gains.m of the recordings' repository); the stated numbers are those of the arm without them."
 
     def __init__(self, data):
-        path = os.path.join(data, "ur10e-payload", "loaded.csv")
-        with open(path, encoding="utf-8") as file:
-            names = [cell.split(" [")[0] for cell in file.readline().strip().split(",")]
-        values = np.loadtxt(path, delimiter=",", skiprows=1)
-        table = {name: values[:, i] for i, name in enumerate(names)}
+        table = files.numbers_of_csv(os.path.join(data, "ur10e-payload", "loaded.csv"))
         parts = (("train_1", "train", 5.0, 20.0), ("validation_1", "validation", 22.0, 35.0), ("test_1", "test", 0.0, 1.0))
         self.recordings = [(name, role, even(table, self.period, begin, end)) for name, role, begin, end in parts]
 

@@ -47,13 +47,6 @@ def numbers_of_mat(path):
     return out
 
 
-def numbers_of_csv(path):
-    with open(path, encoding="utf-8") as file:
-        names = [cell.split(" [")[0] for cell in file.readline().strip().split(",")]
-    values = np.loadtxt(path, delimiter=",", skiprows=1)
-    return {name: values[:, i] for i, name in enumerate(names)}
-
-
 def even(time, command, position, period, begin, end):
     """On even times: the command's last value holds, positions lie on straight lines between readings."""
     t = np.arange(begin, min(end, time[-1]), period)
@@ -148,7 +141,7 @@ class Servo(Machine):
 
     def __init__(self, data):
         def part(name, begin=0.0, end=6.0):
-            table = numbers_of_csv(os.path.join(data, "servo-pendulum", "trials", name, "data.csv"))
+            table = files.numbers_of_csv(os.path.join(data, "servo-pendulum", "trials", name, "data.csv"))
             return even(table["t"], 0.104 * table["u"], table["q"], self.period, table["t"][0] + begin, end)
         self.recordings = [("train_1", "train", part("kp100_sin_sin")), ("train_2", "train", part("kp200_up_and_down")),
                            ("train_3", "train", part("kp400_lift_and_drop")),
@@ -168,7 +161,7 @@ class Pendulum(Machine):
 
     def __init__(self, data):
         def part(name, end=10.0):
-            table = numbers_of_csv(os.path.join(data, "pendulum", "trials", name, "data.csv"))
+            table = files.numbers_of_csv(os.path.join(data, "pendulum", "trials", name, "data.csv"))
             return even(table["t"], table["torque"], table["q"], self.period, 0.0, end)
         self.recordings = [("train_1", "train", part("pd_system_identification")), ("train_2", "train", part("energy_shaping", 8.0)),
                            ("validation_1", "validation", part("direct_collocation")), ("test_1", "test", part("ddp", 3.0)),

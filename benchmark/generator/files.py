@@ -1,4 +1,4 @@
-"""Writes a case as plain files: robot.urdf, case.json, one CSV for each recording; and its truth beside it."""
+"""Writes a case as plain files: robot.urdf, case.json, one CSV for each recording; and its truth beside it. Reads such a CSV."""
 
 import json
 import os
@@ -130,6 +130,14 @@ def describe(identifier, machine, records):
                                 "rest": quantity(spring["rest"], "m")})
     case["feet"] = feet(machine)
     return case
+
+
+def numbers_of_csv(path):
+    """Columns by name; the unit behind each name is left out."""
+    with open(path, encoding="utf-8") as file:
+        names = [cell.split(" [")[0] for cell in file.readline().strip().split(",")]
+    values = np.loadtxt(path, delimiter=",", skiprows=1)
+    return {name: values[:, i] for i, name in enumerate(names)}
 
 
 def write_csv(path, units, table):
