@@ -71,15 +71,17 @@ TEST(LookAhead, FindsTheHalfThatIsEnoughAlone) {
 }
 
 struct Screened {
+  Data data;
+  Stage stage;
   std::vector<Candidate> candidates;
   std::vector<Hypothesis> starts;
 };
 
-/// All candidates of the laws, and all starts of each.
-Screened candidates_of(const Stage& stage, const Data& data, const std::set<std::string>& laws) {
-  Screened all;
-  PredictorPool pool(stage.model, data);
-  all.candidates = list_candidates(pool, some_laws(laws), {}, stage.estimate);
+/// On the bench's twins: all candidates of the laws, and all starts of each.
+Screened screened(const Data& data, const std::set<std::string>& laws) {
+  Screened all{data, as_given(bench(), data), {}, {}};
+  PredictorPool pool(all.stage.model, data);
+  all.candidates = list_candidates(pool, some_laws(laws), {}, all.stage.estimate);
   for (std::size_t c = 0; c < all.candidates.size(); ++c) {
     for (const effects::Values& start : all.candidates[c].law->starts(all.candidates[c].scales)) {
       Hypothesis hypothesis;
@@ -92,18 +94,13 @@ Screened candidates_of(const Stage& stage, const Data& data, const std::set<std:
 }
 
 TEST(Tangents, PromiseMostForThePairThatIsHidden) {
-  const model::Model bare = bench();
-  const Data data =
-      bench_twins({"hardening@leg_angle:cubic_stiffness=3", "coulomb@mLS:level=0.003"}).thinned(8);
-  const Stage stage = as_given(bare, data);
-  const Screened all =
-      candidates_of(stage, data, {"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"});
-  const std::vector<Candidate>& candidates = all.candidates;
-  const std::vector<Hypothesis>& starts = all.starts;
+  const auto [data, stage, candidates, starts] =
+      screened(bench_twins({"hardening@leg_angle:cubic_stiffness=3", "coulomb@mLS:level=0.003"}).thinned(8),
+               {"hardening", "spring", "coulomb", "viscous", "quadratic", "torque_bias"});
   const std::vector<PairHypothesis> pairs = Tangents(stage, candidates, starts, data).pairs(8);
   ASSERT_EQ(pairs.size(), 8U);
-  const auto label = [&](const Hypothesis& h) {
-    return candidates[static_cast<std::size_t>(h.candidate)].label();
+  const auto label = [&all = candidates](const Hypothesis& h) {
+    return all[static_cast<std::size_t>(h.candidate)].label();
   };
   EXPECT_THAT((std::vector<std::string>{label(pairs[0].first), label(pairs[0].second)}),
               UnorderedElementsAre("hardening@leg_angle", "coulomb@mLS"));
@@ -116,11 +113,8 @@ TEST(Tangents, PromiseMostForThePairThatIsHidden) {
 }
 
 TEST(Tangents, PromiseInLotsWhatTheyPromiseInOneLinearisation) {
-  const Data data = bench_twins({"cogging@mLS:sine=0.02,cycles=12"}).thinned(2);
-  const Stage stage = as_given(bench(), data);
-  const Screened all = candidates_of(stage, data, {"cogging", "torque_ripple", "viscous"});
-  const std::vector<Candidate>& candidates = all.candidates;
-  const std::vector<Hypothesis>& starts = all.starts;
+  const auto [data, stage, candidates, starts] = screened(
+      bench_twins({"cogging@mLS:sine=0.02,cycles=12"}).thinned(2), {"cogging", "torque_ripple", "viscous"});
   const std::vector<Hypothesis> in_one = Tangents(stage, candidates, starts, data).promises();
   const std::vector<Hypothesis> in_lots = promises_of(stage, candidates, starts, data);
   ASSERT_EQ(in_one.size(), in_lots.size());
@@ -133,17 +127,14 @@ TEST(Tangents, PromiseInLotsWhatTheyPromiseInOneLinearisation) {
 }
 
 TEST(Tangents, BeginALotWithTheBestStartOfEachCandidate) {
-  const Data data = bench_twins({"viscous@mLS:damping=0.001"}).thinned(2);
-  const Stage stage = as_given(bench(), data);
-  const Screened all = candidates_of(stage, data, {"cogging", "torque_ripple", "viscous"});
-  const std::vector<Candidate>& candidates = all.candidates;
-  const std::vector<Hypothesis>& starts = all.starts;
-  const std::vector<Hypothesis> lot = first_lot(candidates, starts);
+  const Screened all = screened(bench_twins({"viscous@mLS:damping=0.001"}).thinned(2),
+                                {"cogging", "torque_ripple", "viscous"});
+  const std::vector<Hypothesis> lot = first_lot(all.candidates, all.starts);
   std::set<int> seen;
-  for (std::size_t h = 0; h < candidates.size(); ++h) {
+  for (std::size_t h = 0; h < all.candidates.size(); ++h) {
     seen.insert(lot[h].candidate);
   }
-  EXPECT_EQ(seen.size(), candidates.size());
+  EXPECT_EQ(seen.size(), all.candidates.size());
 }
 
 }  // namespace

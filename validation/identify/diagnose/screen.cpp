@@ -17,6 +17,10 @@
 namespace plumbline::validation {
 namespace {
 
+const Candidate& candidate_of(const std::vector<Candidate>& candidates, const Hypothesis& hypothesis) {
+  return candidates[static_cast<std::size_t>(hypothesis.candidate)];
+}
+
 /// What the linearisation at the extended model's values promises, `own` of whose parameters are new.
 Promise promise_at(const Extended& extended, std::size_t own, const Data& data,
                    const std::vector<int>& windows, const std::vector<Eigen::VectorXd>& x0) {
@@ -74,8 +78,7 @@ std::vector<Eigen::VectorXd> start_states(const Stage& stage, const Extended& ex
 
 void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
                   const Data& data, const Part& part) {
-  const Extended extended =
-      extend(stage, candidates[static_cast<std::size_t>(hypothesis.candidate)], hypothesis.start);
+  const Extended extended = extend(stage, candidate_of(candidates, hypothesis), hypothesis.start);
   const Promise promise = kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data,
                                        part.windows, start_states(stage, extended, data));
   hypothesis.step = promise.step;
@@ -94,7 +97,7 @@ void screen_ahead(const Stage& stage, const std::vector<Candidate>& candidates, 
   std::vector<Ahead> pieces;
   pieces.reserve(starts.size());
   for (const Hypothesis& start : starts) {
-    pieces.push_back({"screening " + candidates[static_cast<std::size_t>(start.candidate)].label(), [&] {
+    pieces.push_back({"screening " + candidate_of(candidates, start).label(), [&] {
                         Hypothesis copy = start;
                         screen_start(stage, candidates, copy, data, part);
                       }});
@@ -107,7 +110,7 @@ void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates,
                    const Part& part, const Progress& progress, std::vector<Hypothesis>& starts) {
   screen_ahead(stage, candidates, data, part, starts);
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(starts[s].candidate)];
+    const Candidate& candidate = candidate_of(candidates, starts[s]);
     progress("screening " + candidate.label(),
              static_cast<double>(s + 1) / static_cast<double>(starts.size() + 1));
     screen_start(stage, candidates, starts[s], data, part);
@@ -122,11 +125,8 @@ void screen_starts(const Stage& stage, const std::vector<Candidate>& candidates,
 std::vector<std::string> places_for(const effects::Law& law, const std::vector<Candidate>& candidates,
                                     const std::vector<Hypothesis>& tangents, const TiedPlaces& tied) {
   constexpr std::size_t kPlaces = 4;
-  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
-    return candidates[static_cast<std::size_t>(one.candidate)];
-  };
   const bool has_linear = std::any_of(tangents.begin(), tangents.end(), [&](const Hypothesis& one) {
-    return are_of_one_family(*candidate_of(one).law, law);
+    return are_of_one_family(*candidate_of(candidates, one).law, law);
   });
   const auto tells = [&](const Candidate& candidate) {
     const bool is_drive =
@@ -135,7 +135,7 @@ std::vector<std::string> places_for(const effects::Law& law, const std::vector<C
   };
   std::vector<std::string> places;
   for (const Hypothesis& one : tangents) {  // sorted
-    const Candidate& candidate = candidate_of(one);
+    const Candidate& candidate = candidate_of(candidates, one);
     const bool is_known = std::any_of(places.begin(), places.end(),
                                       [&](const std::string& at) { return tied.are_one(at, candidate.at); });
     if (places.size() < kPlaces && !is_known && tells(candidate)) {
@@ -152,7 +152,7 @@ void keep_where_family_promises(const std::vector<Candidate>& candidates,
                                 std::vector<Hypothesis>& starts) {
   std::map<std::string, std::vector<std::string>> places;  // by law
   const auto is_elsewhere = [&](const Hypothesis& start) {
-    const Candidate& candidate = candidates[static_cast<std::size_t>(start.candidate)];
+    const Candidate& candidate = candidate_of(candidates, start);
     const effects::Law& law = *candidate.law;
     if (!are_of_one_family(law, law)) {
       return false;
@@ -179,14 +179,11 @@ void keep_behind_forerunners(const std::vector<Candidate>& candidates,
   constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
   const double now = stage.estimate.predicted.scores.square();
   const double most = now - kNoticeable * std::max(now - kFloors, 0.0);
-  const auto candidate_of = [&](const Hypothesis& one) -> const Candidate& {
-    return candidates[static_cast<std::size_t>(one.candidate)];
-  };
   const auto is_kept = [&](const Hypothesis& start) {
-    const Candidate& costly = candidate_of(start);
+    const Candidate& costly = candidate_of(candidates, start);
     std::vector<std::string> first;  // places, the most promising first
     for (const Hypothesis& one : tangents) {
-      const Candidate& candidate = candidate_of(one);
+      const Candidate& candidate = candidate_of(candidates, one);
       if (first.size() < kPlaces && one.promised() < most && is_forerunner(*candidate.law, *costly.law) &&
           std::find(first.begin(), first.end(), candidate.at) == first.end()) {
         first.push_back(candidate.at);
@@ -197,7 +194,8 @@ void keep_behind_forerunners(const std::vector<Candidate>& candidates,
   };
   starts.erase(std::remove_if(starts.begin(), starts.end(),
                               [&](const Hypothesis& start) {
-                                return has_forerunners(*candidate_of(start).law) && !is_kept(start);
+                                return has_forerunners(*candidate_of(candidates, start).law) &&
+                                       !is_kept(start);
                               }),
                starts.end());
 }
@@ -230,7 +228,7 @@ std::vector<SecondLook> second_looks(const Stage& stage, const std::vector<Candi
       continue;
     }
     seen.push_back(found[h].candidate);
-    const Candidate& candidate = candidates[static_cast<std::size_t>(found[h].candidate)];
+    const Candidate& candidate = candidate_of(candidates, found[h]);
     const Extended extended = extend(stage, candidate, found[h].start);
     const Eigen::VectorXd theta = promised_theta(extended, found[h]);
     Hypothesis again = found[h];
@@ -253,7 +251,7 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
   }
   screen_ahead(stage, candidates, data, part, starts);
   for (SecondLook& look : looks) {
-    progress("looking again at " + candidates[static_cast<std::size_t>(look.again.candidate)].label(), 0.95);
+    progress("looking again at " + candidate_of(candidates, look.again).label(), 0.95);
     screen_start(stage, candidates, look.again, data, part);
     if (look.again.promised() < found[look.of].promised()) {
       found[look.of] = std::move(look.again);
