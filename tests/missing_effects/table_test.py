@@ -39,9 +39,9 @@ class Page(unittest.TestCase):
         self.write(f"answers/{entrant}/{case}/answer.json", {"verdict": "found", "found": [{"names": [name]}]})
         self.write(f"answers/{entrant}/{case}/run.json", {"processor_seconds": 1.0, "ending": ending})
 
-    def pages(self):
+    def pages(self, *options):
         out, page = (os.path.join(self.root, name) for name in ("page.md", "page.html"))
-        done = subprocess.run([sys.executable, os.path.join(BENCHMARK, "table.py"), self.root, "--out", out, "--html", page, "--own", "mine"],
+        done = subprocess.run([sys.executable, os.path.join(BENCHMARK, "table.py"), self.root, "--out", out, "--html", page, "--own", "mine", *options],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         texts = []
@@ -63,6 +63,14 @@ class Page(unittest.TestCase):
         self.answer("mine", "case_002", "spring", "wall clock limit")
         page, _ = self.pages()
         self.assertIn("the same 1 of 2 simulated cases", page)
+
+    def test_an_entrant_that_was_run_on_fewer_cases_has_a_table_of_its_own(self):
+        self.answer("slow", "case_002", "spring")
+        page, _ = self.pages("--fewer", "slow")
+        self.assertIn("the same 2 of 2 simulated cases", page)
+        part = page[page.index("## The 1 simulated cases that slow was run on, too"):page.index("## Real machines")]
+        self.assertIn("| slow | 100% |", part)
+        self.assertIn("| mine | 0% |", part)  # of the one; of both it has one
 
     def test_html_stands_alone(self):
         _, page = self.pages()
