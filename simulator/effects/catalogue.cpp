@@ -10,6 +10,7 @@
 #include "simulator/effects/backlash.h"
 #include "simulator/effects/battery.h"
 #include "simulator/effects/boom.h"
+#include "simulator/effects/bus_delay.h"
 #include "simulator/effects/cable_stretch.h"
 #include "simulator/effects/clock_drift.h"
 #include "simulator/effects/cogging.h"
@@ -94,6 +95,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const CurrentLoop>(),
       std::make_shared<const Winding>(),
       std::make_shared<const CommandDelay>(),
+      std::make_shared<const BusDelay>(),
       std::make_shared<const ClockDrift>(),
       std::make_shared<const RotorInertia>(),
       std::make_shared<const AddedMass>(),

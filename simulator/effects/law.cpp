@@ -90,6 +90,8 @@ std::string to_string(Place place) {
       return "base";
     case Place::contact_switch:
       return "contact switch";
+    case Place::limb:
+      return "limb";
   }
   return "unknown";
 }

@@ -13,8 +13,9 @@ namespace plumbline::effects {
 /// ratio: a rigid coupling of a motor to coordinates, which the effect releases;
 /// body: a link's mass properties; sensor: one measured channel; world: gravity;
 /// foot: a point that meets the ground (laws in contact/); base: the two slides that carry a planar robot;
-/// contact_switch: a switch that shows when a foot is in the ground.
-enum class Place { coordinate, motor, ratio, body, sensor, world, foot, base, contact_switch };
+/// contact_switch: a switch that shows when a foot is in the ground; limb: all motors from a link on, or all
+/// of the robot ("world").
+enum class Place { coordinate, motor, ratio, body, sensor, world, foot, base, contact_switch, limb };
 
 /// The line along which a parameter is searched: as it is, by its logarithm (positive scales such as a
 /// speed), or by its reciprocal (stiffnesses whose null value is infinite).

@@ -10,7 +10,7 @@ namespace plumbline::effects {
 /// reading = actual - lag actual_rate                                   [rad or m]
 /// To first order in the lag, what a low-pass filter of group delay `lag` shows, or a channel that is sampled
 /// so much earlier than the others: the error is lag^2/2 times the acceleration. Below 0 the channel is ahead
-/// of the others. All channels late alike are a command_delay of all motors. Null when lag = 0.
+/// of the others. All channels late alike are a bus_delay of all motors. Null when lag = 0.
 /// Source: Oppenheim and Schafer, Discrete-Time Signal Processing (3rd edition, 2010), section 5.1.1 (group
 /// delay).
 class SensorLag final : public LateSensorLaw {

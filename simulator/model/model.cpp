@@ -5,6 +5,7 @@
 
 #include "simulator/model/inertial_sensors.h"
 #include "simulator/model/kinds.h"
+#include "simulator/model/limbs.h"
 #include "simulator/model/places.h"
 #include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
@@ -120,6 +121,9 @@ std::vector<std::string> Model::places(effects::Place place) const {
     case effects::Place::contact_switch:
       append_names(switches, names);
       break;
+    case effects::Place::limb:
+      names = limbs(*this);
+      break;
   }
   return names;
 }
@@ -148,6 +152,7 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
       return false;
     case effects::Place::body:
     case effects::Place::world:
+    case effects::Place::limb:
       break;
   }
   return true;

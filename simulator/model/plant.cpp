@@ -10,12 +10,22 @@
 #include "simulator/effects/supply_law.h"
 #include "simulator/model/body_change.h"
 #include "simulator/model/inertial_sensors.h"
+#include "simulator/model/limbs.h"
 #include "simulator/model/planar_base.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::model {
 
 using effects::Place;
+
+namespace {
+
+/// An actuator's law: of this motor, of a limb or of all.
+bool acts_on(const Model& model, const effects::Law& law, const std::string& at, const Motor& motor) {
+  return law.sits_at(Place::limb) ? is_on_limb(model, at, motor) : motor.name == at;
+}
+
+}  // namespace
 
 Plant::Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain)
     : model_(model), terrain_(std::move(terrain)) {
@@ -253,7 +263,7 @@ void Plant::place_effects() {
     } else if (const auto* actuator = dynamic_cast<const effects::ActuatorLaw*>(law)) {
       const bool has_state = law->state_count() > 0 && !law->is_null(values(e));
       for (std::size_t m = 0; m < model_.motors.size(); ++m) {
-        if (model_.motors[m].name == use.at) {
+        if (acts_on(model_, *law, use.at, model_.motors[m])) {
           actuators_[m].push_back({actuator, e, has_state ? next_state : -1});
         }
       }

@@ -321,11 +321,12 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
       return;
     }
   }
+  Eigen::VectorXd of_motor(nx_);
   for (int m = 0; m < motors(); ++m) {
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
-      if (slot.effect == id.effect) {
-        actuator_parameter_tangent(m, slot, sample, x, A, moved, step, column);
-        return;
+      if (slot.effect == id.effect) {  // a limb's law stands at several motors
+        actuator_parameter_tangent(m, slot, sample, x, A, moved, step, of_motor);
+        column += of_motor;
       }
     }
   }

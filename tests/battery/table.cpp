@@ -113,6 +113,7 @@ const std::vector<Row>& leg_bench_rows() {
       {"torque_ripple", "mLS", "sine=3e-3|0.026,cosine=2e-3|0.018,cycles=12"},
       {"winding", "mLA", "time_constant=4e-4|3.5e-3,slope=2e-5|4e-5"},
       {"winding", "mLS", "time_constant=4e-4|3e-3,slope=4e-5|8e-5"},
+      {"bus_delay", "world", "delay=5e-4|4e-3"},
       {"battery", "world", "stall_sag=9e-4|8e-3,speed_sag=2.2e-5|2e-4"},
       {"torque_saturation", "mLA", "sag=8e-3|0.07"},
       {"voltage_limit", "mLA", "stall_torque=1.0+0.95|0.45,no_load_speed=60+15"},

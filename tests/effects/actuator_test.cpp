@@ -155,5 +155,13 @@ TEST(CommandDelay, ReportsItsDelayAndPassesTheCommandOn) {
   EXPECT_EQ(law->starts(test_scales()), std::vector<Values>{Values{0.0}});
 }
 
+TEST(BusDelay, IsACommandDelayOfEveryMotorThere) {
+  const auto law = law_named("bus_delay");
+  const Values p = values_of(*law, {{"delay", 0.004}});
+  EXPECT_DOUBLE_EQ(law->delay(p.data()), 0.004);
+  EXPECT_DOUBLE_EQ(law->torque(1.5, nullptr, p.data()), 1.5);
+  EXPECT_TRUE(law->sits_at(Place::limb));
+}
+
 }  // namespace
 }  // namespace plumbline::effects

@@ -179,6 +179,7 @@ const std::vector<Case>& cases() {
         {"resonator", "leg_angle", "frequency", 6.0},
         {"resonator", "leg_angle", "damping_ratio", 0.1}}},
       {"command_delay", {"command_delay@mLA:delay=0.0023"}, {{"command_delay", "mLA", "delay", 0.01}}},
+      {"bus_delay", {"bus_delay@world:delay=0.0023"}, {{"bus_delay", "world", "delay", 0.01}}},
       // Within the window no whole sample is passed: there the mean of held commands has a corner.
       {"clock_drift",
        {"clock_drift@mLA:offset=0.0021,drift=0.001"},

@@ -78,6 +78,8 @@ const std::vector<EffectGuide>& effects_guide() {
        "steps of voltage with the rotor held, then free"},
       {"command_delay", "electronics and clocks", "actuator_lag",
        "steps of torque: one bends, one comes late"},
+      {"bus_delay", "electronics and clocks", "command_delay of one of its motors, sensor_lag of all sensors",
+       "steps of torque of one motor after the other"},
       {"clock_drift", "electronics and clocks", "command_delay, sensor_lag of all sensors",
        "steps of torque at the beginning and at the end of a long record"},
       {"switch_lateness", "electronics and clocks", "ground_height_error, ground_stiffness_error",

@@ -75,7 +75,7 @@ constexpr const char* kHead =
     "coordinate; the two waves a\nturn of a harmonic drive are `encoder_eccentricity` (waves 2) and "
     "`cogging` "
     "(cycles 2) of its motor; a mounting that yields and a link\nthat bends are `resonator` with a negative "
-    "`rotor_inertia`; clocks of command and measurement apart are `command_delay` of all motors,\n"
+    "`rotor_inertia`; clocks of command and measurement apart are a `bus_delay` of all motors,\n"
     "and `clock_drift` where the two run apart.\n";
 
 }  // namespace

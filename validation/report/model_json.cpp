@@ -154,9 +154,9 @@ std::string unit_of(const model::Model& model, const model::EffectUse& use, std:
 
 const std::vector<effects::Place>& all_places() {
   static const std::vector<effects::Place> kPlaces{
-      effects::Place::coordinate, effects::Place::motor,  effects::Place::ratio,
-      effects::Place::body,       effects::Place::sensor, effects::Place::world,
-      effects::Place::foot,       effects::Place::base,   effects::Place::contact_switch};
+      effects::Place::coordinate,     effects::Place::motor, effects::Place::ratio, effects::Place::body,
+      effects::Place::sensor,         effects::Place::world, effects::Place::foot,  effects::Place::base,
+      effects::Place::contact_switch, effects::Place::limb};
   return kPlaces;
 }
 

@@ -126,6 +126,12 @@ void Machine::add_effects() {
       delay_[i] += effect["delay"];
       continue;
     }
+    if (effect.effect == "bus_delay") {
+      for (double& delay : delay_) {
+        delay += effect["delay"];
+      }
+      continue;
+    }
     if (effect.effect == "clock_drift") {
       delay_[i] += effect["offset"];
       drift_[i] += effect["drift"];

@@ -254,6 +254,7 @@ class Delivery {
   explicit Delivery(const Rig& rig) : delay_(rig.motors.size(), 0.0), drift_(delay_), lag_(delay_) {
     for (const Hidden& e : rig.effects) {
       for (std::size_t i = 0; i < rig.motors.size(); ++i) {
+        delay_[i] += e.effect == "bus_delay" ? e["delay"] : 0.0;
         if (rig.motors[i].name == e.at) {
           delay_[i] += e.effect == "command_delay" ? e["delay"] : 0.0;
           delay_[i] += e.effect == "clock_drift" ? e["offset"] : 0.0;

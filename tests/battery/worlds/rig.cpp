@@ -303,7 +303,7 @@ void hide(const Hidden& effect, Rig& rig) {
   if (change_numbers(effect, rig)) {
     return;
   }
-  const bool is_anywhere = effect.effect == "battery" || effect.effect == "tilting_mount";
+  const bool is_anywhere = effect.at == "world";
   if (!is_anywhere && rig.motor(effect.at) == nullptr && rig.place(effect.at) == nullptr) {
     throw std::invalid_argument("the rig has no place " + effect.at + " for " + effect.effect);
   }

@@ -7,6 +7,7 @@
 #include "contact/ground_change.h"
 #include "simulator/effects/inertial_sensor_law.h"
 #include "simulator/effects/parameters.h"
+#include "simulator/model/limbs.h"
 #include "simulator/model/places.h"
 #include "simulator/model/planar_base.h"
 #include "validation/identify/diagnose/inertial_places.h"
@@ -249,6 +250,12 @@ std::vector<int> parameters_without_effect(const model::Model& model, const Cand
   return found;
 }
 
+std::string first_motor_on(const model::Model& model, const std::string& limb) {
+  return std::find_if(model.motors.begin(), model.motors.end(),
+                      [&](const model::Motor& motor) { return is_on_limb(model, limb, motor); })
+      ->name;
+}
+
 bool is_null(const model::EffectUse& use) { return use.law->is_null(use.numbers().data()); }
 
 /// A law that brings states of its own to the system, by its bristles or by releasing a ratio, and that a
@@ -320,6 +327,8 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
         candidate.scales.period = pool.data().trials.front().period;
       } else if (place == Place::foot) {
         candidate.scales.position = resting_depth(model, at);
+      } else if (place == Place::limb) {
+        candidate.scales = motions.at(Place::motor, first_motor_on(model, at));
       } else if (place == Place::base) {
         candidate.scales = motions.at(Place::coordinate, base_height(model.skeleton));
       }

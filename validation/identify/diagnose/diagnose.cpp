@@ -90,6 +90,12 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Pol
     set_values(diagnosis.final_stage, all, diagnosis.accepted);
   }
   compare_rungs(data, progress, diagnosis);
+  if (!is_answer && has_risen(all, diagnosis)) {  // of the errors that are reported, too
+    leave_contradicted_unnamed(all, policy, progress, diagnosis);
+    diagnosis.precision = {};
+    set_values(diagnosis.final_stage, all, diagnosis.accepted);
+    compare_rungs(data, progress, diagnosis);
+  }
   conclude(all, policy, diagnosis);
   // What could not be followed has not been explained.
   if (diagnosis.verdict == Verdict::nothing_missing && diagnosis.cut_windows > most_lost(diagnosis.windows)) {

@@ -17,7 +17,7 @@ const std::vector<std::vector<std::string>>& families() {
       {"viscous", "viscous_directional", "quadratic", "coulomb", "coulomb_directional", "stribeck", "lugre",
        "hysteresis", "load_friction", "gear_friction", "gear_efficiency"},
       {"spring", "preload", "unilateral_spring", "asymmetric_spring", "hardening", "hard_stop"},
-      {"actuator_lag", "current_loop", "command_delay", "clock_drift", "winding"},
+      {"actuator_lag", "current_loop", "command_delay", "bus_delay", "clock_drift", "winding"},
       {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
       {"cable_stretch", "backlash", "harmonic_drive", "slipping_coupling"},
       {"cogging", "torque_ripple"},

@@ -94,6 +94,8 @@ Stage stage_without(std::size_t finding, const Data& all, const Policy& policy, 
   return refitted_without(stage, effect, all, policy);
 }
 
+bool raises_held_out(const Finding& finding) { return finding.held_out_after > finding.held_out_before; }
+
 /// A finding with which the held-out error has risen; else that of whose strength the held-out motion wants
 /// the least, if it asks for none of it.
 std::optional<std::size_t> most_contradicted(const Data& all, const Diagnosis& diagnosis) {
@@ -103,8 +105,7 @@ std::optional<std::size_t> most_contradicted(const Data& all, const Diagnosis& d
   std::optional<std::size_t> most;
   double apart = kNone;
   for (std::size_t i = diagnosis.accepted.size(); i-- > 0;) {
-    if (all.has(Role::held_out) &&
-        diagnosis.accepted[i].held_out_after > diagnosis.accepted[i].held_out_before) {
+    if (all.has(Role::held_out) && raises_held_out(diagnosis.accepted[i])) {
       return i;
     }
   }
@@ -159,6 +160,11 @@ void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Pro
   if (!whole.effects.empty() && judged(whole.stage.estimate.scores, all) < least) {
     diagnosis.unnamed = std::move(whole);
   }
+}
+
+bool has_risen(const Data& all, const Diagnosis& diagnosis) {
+  return all.has(Role::held_out) &&
+         std::any_of(diagnosis.accepted.begin(), diagnosis.accepted.end(), raises_held_out);
 }
 
 void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis) {

@@ -15,6 +15,9 @@ void drop_superfluous(const Data& all, const Policy& policy, const Progress& pro
 void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
                                 Diagnosis& diagnosis);
 
+/// Is there a name with which the held-out error is higher than without it?
+bool has_risen(const Data& all, const Diagnosis& diagnosis);
+
 /// The last values of an answer, to a tenth of a standard deviation and better: searches among candidates end
 /// as soon as they can be told apart.
 void settle_values(const Data& all, const Progress& progress, Diagnosis& diagnosis);
