@@ -88,7 +88,7 @@ def chosen(options):
     """(identifier, entry, seed) of the cases; identifiers say nothing of what is hidden. A public seed draws the order machine by machine as
     they came to the benchmark, so that numbers stay; a secret draws one order of all."""
     rng = np.random.default_rng(options.seed)
-    blocks = plan.BLOCKS if not options.secret else [sum(plan.BLOCKS, ())]
+    blocks = plan.BLOCKS if not options.secret else [options.machines]
     number = first = 0
     for machines in blocks:
         entries = list(plan.entries(options.set == "all", machines))
@@ -148,6 +148,7 @@ def reveal(options):
     for key in ("set", "count", "prefix"):
         setattr(options, key, sealed["made"][key])
     options.only = sealed["made"].get("only", "")
+    options.machines = tuple(sealed["made"]["machines"])  # those that the benchmark had then
     if sealed["generator"] != sources_hash():
         print(f"The generator is another one than that of {options.hashes}: take the sources of release {sealed['release']}.")
     hashes, wrong = make_all(options), 0
@@ -183,6 +184,7 @@ def arguments():
     elif options.secret_file:
         with open(options.secret_file, encoding="utf-8") as file:
             options.secret = checked_secret(file.read().strip(), options.secret_file)
+    options.machines = sum(plan.BLOCKS, ())
     if options.secret:
         options.seed = int(derived(options.secret, "seed"), 16)
     return options
@@ -194,7 +196,7 @@ def main():
         sys.exit(reveal(options))
     hashes = make_all(options)
     if options.hashes:
-        made = {"set": options.set, "count": options.count, "prefix": options.prefix, "only": options.only}
+        made = {"set": options.set, "count": options.count, "prefix": options.prefix, "only": options.only, "machines": options.machines}
         files.write_json(options.hashes, {"release": options.release, "made": made, "generator": sources_hash(), "hashes": hashes})
 
 

@@ -126,8 +126,9 @@ def describe(identifier, machine, records):
                        for name, role, _, start in records],
         "allowed": allowed(machine), "meaning": KINDS}
     for joint, spring in machine.stated.get("springs", {}).items():
-        case["springs"].append({"joint": joint, "stiffness": quantity(spring["stiffness"], "N/m", motion.KNOWN["spring"]),
-                                "rest": quantity(spring["rest"], "m")})
+        slides = joint in machine.sliding
+        case["springs"].append({"joint": joint, "stiffness": quantity(spring["stiffness"], "N/m" if slides else "N m/rad", motion.KNOWN["spring"]),
+                                "rest": quantity(spring["rest"], "m" if slides else "rad")})
     case["feet"] = feet(machine)
     return case
 

@@ -206,4 +206,55 @@ class Cube:
         return sum(self.ground["stiffness"] * max(0.0, depth) ** n / n for depth in depths)
 
 
-MACHINES = {machine.name: machine for machine in (Pendulum, Arm, Hopper, Cube)}
+class Leg:
+    """A leg on a bench: hip and knee on geared drives, a foot on an ankle with a spring and no drive, in a vertical plane.
+
+    With the links' angles against the vertical a1 = q1, a2 = q1 + q2, a3 = q1 + q2 + q3 and what hangs below each joint,
+    A_ii = I_i + m_i c_i^2 + L_i^2 (sum of m below),  A_ij = L_i (m_j c_j + L_j (sum of m below j)) for i < j,  B_i = m_i c_i + L_i (sum of m below):
+    T = sum A_ij cos(a_i - a_j) a_i' a_j' / 2, V = -g sum B_i cos(a_i + tilt). Lagrange in the angles gives
+    sum_j A_ij (cos(a_i - a_j) a_j'' + sin(a_i - a_j) a_j'^2) + g B_i sin(a_i + tilt) = f_i, and a joint moves its own link and all below:
+    row i of M and h in the joints is the sum of the rows i, i + 1, ... , and so are the columns of M.
+    """
+
+    name = "leg"
+    title = "A leg on a bench: hip and knee on geared drives, a springy ankle"
+    joints = ("hip", "knee", "ankle")
+    links = {"hip": "thigh", "knee": "shin", "ankle": "foot"}
+    sliding = ()
+    stated = {
+        "links": {"thigh": {"mass": 1.8, "center": 0.11, "inertia": 0.012, "length": 0.24},
+                  "shin": {"mass": 0.8, "center": 0.1, "inertia": 0.005, "length": 0.24},
+                  "foot": {"mass": 0.25, "center": 0.05, "inertia": 5.0e-4, "length": 0.1}},
+        "drives": {"hip": {"ratio": 40.0, "rotor_inertia": 3.0e-5, "damping": 0.1},
+                   "knee": {"ratio": 36.0, "rotor_inertia": 2.5e-5, "damping": 0.07}},
+        "springs": {"ankle": {"stiffness": 1.2, "rest": 0.1}},
+    }
+
+    def __init__(self, numbers, tilt=0.0):
+        links = [numbers["links"][self.links[joint]] for joint in self.joints]
+        below = [sum(link["mass"] for link in links[i + 1:]) for i in range(3)]
+        self.tilt = tilt
+        self.moments = [link["mass"] * link["center"] + link["length"] * rest for link, rest in zip(links, below)]
+        self.couplings = [[links[i]["length"] * self.moments[j] for j in range(3)] for i in range(3)]
+        for i, link in enumerate(links):
+            self.couplings[i][i] = link["inertia"] + link["mass"] * link["center"] ** 2 + link["length"] ** 2 * below[i]
+            for j in range(i):
+                self.couplings[i][j] = self.couplings[j][i]
+
+    def equations(self, q, v):
+        a = (q[0], q[0] + q[1], q[0] + q[1] + q[2])
+        w = (v[0], v[0] + v[1], v[0] + v[1] + v[2])
+        M = [[self.couplings[i][j] * math.cos(a[i] - a[j]) for j in range(3)] for i in range(3)]
+        h = [sum(self.couplings[i][j] * math.sin(a[i] - a[j]) * w[j] ** 2 for j in range(3))
+             + GRAVITY * self.moments[i] * math.sin(a[i] + self.tilt) for i in range(3)]
+        rows = [[sum(M[k][j] for k in range(i, 3)) for j in range(3)] for i in range(3)]
+        return ([[sum(row[k] for k in range(j, 3)) for j in range(3)] for row in rows], [sum(h[i:]) for i in range(3)])
+
+    def energy(self, q, v):
+        mass, _ = self.equations(q, v)
+        kinetic = 0.5 * sum(v[i] * mass[i][j] * v[j] for i in range(3) for j in range(3))
+        a = (q[0], q[0] + q[1], q[0] + q[1] + q[2])
+        return kinetic - GRAVITY * sum(moment * math.cos(angle + self.tilt) for moment, angle in zip(self.moments, a))
+
+
+MACHINES = {machine.name: machine for machine in (Pendulum, Arm, Hopper, Cube, Leg)}

@@ -6,8 +6,9 @@ import numpy as np
 
 from generator.world import PERIOD
 
-LEVEL = {"pendulum": {"shoulder": 1.0}, "arm": {"shoulder": 1.8, "elbow": 0.45}, "hopper": {"leg": 34.0}, "cube": {}}  # N m or N at the joint
-BAND = {"pendulum": (0.4, 5.0), "arm": (0.4, 5.0), "hopper": (1.5, 6.0), "cube": (1.0, 1.0)}  # Hz
+LEVEL = {"pendulum": {"shoulder": 1.0}, "arm": {"shoulder": 1.8, "elbow": 0.45}, "hopper": {"leg": 34.0}, "cube": {},
+         "leg": {"hip": 2.0, "knee": 0.8}}  # N m or N at the joint
+BAND = {"pendulum": (0.4, 5.0), "arm": (0.4, 5.0), "hopper": (1.5, 6.0), "cube": (1.0, 1.0), "leg": (0.4, 5.0)}  # Hz
 SECONDS = {"train": 3.0, "validation": 3.0, "test": 1.0}
 DROP_SECONDS = {"train": 1.2, "validation": 1.2, "test": 0.6}  # of the cube: it soon lies still
 # One standard deviation of what is stated, as a share.

@@ -59,6 +59,18 @@ SINGLES = {
         ("gravity_tilt", "base", {"angle": 0.05}, "angle"),
         ("spring", "along", {"stiffness": 3.0, "rest": 0.0}, "stiffness"),
     ],
+    "leg": [
+        ("coulomb_friction", "knee", {"level": 0.1}, "level"),
+        ("viscous_friction", "ankle", {"damping": 0.01}, "damping"),
+        ("payload", "foot", {"mass": 0.1, "distance": 0.1}, "mass"),
+        ("elastic_drive", "knee", {"stiffness": 90.0, "damping": 0.25}, "1/stiffness"),
+        ("spring", "ankle", {"stiffness": 0.4, "rest": 0.1}, "stiffness"),
+        ("center_of_mass", "thigh", {"shift": 0.02}, "shift"),
+        ("actuator_lag", "hip", {"time_constant": 0.008}, "time_constant"),
+        ("torque_gain", "knee", {"gain": 1.2}, "1+gain"),
+        ("load_friction", "hip", {"coefficient": 0.12}, "coefficient"),
+        ("hard_stop", "knee", {"position": 0.6, "stiffness": 300.0, "damping": 2.0}, "0-position"),
+    ],
 }
 
 PAIRS = {
@@ -66,6 +78,7 @@ PAIRS = {
     "arm": [(0, 3), (1, 6), (7, 8), (4, 0)],
     "hopper": [(0, 3), (5, 1), (7, 2), (6, 4)],
     "cube": [(0, 4), (2, 8), (3, 7), (6, 1)],
+    "leg": [(0, 2), (6, 7), (4, 1), (8, 5)],
 }
 
 OUTSIDE = {
@@ -85,10 +98,14 @@ OUTSIDE = {
              ("latch", "up", {"pull": 2.0, "center": 0.12, "width": 0.02}),
              ("absorber", "turn", {"inertia": 2.0e-4, "stiffness": 0.15, "damping": 2.0e-4}),
              ("warming", "along", {"damping": 3.0, "time": 0.4})],
+    "leg": [("patch_friction", "knee", {"damping": 0.4, "center": 0.3, "width": 0.15}),
+            ("latch", "hip", {"pull": 0.9, "center": -0.2, "width": 0.08}),
+            ("absorber", "knee", {"inertia": 0.006, "stiffness": 1.5, "damping": 0.01}),
+            ("fading", "hip", {"loss": 0.5, "time": 1.2})],
 }
 
 # Machines in the order in which they came: numbers of the cases that were there before stay.
-BLOCKS = (("pendulum", "arm", "hopper"), ("cube",))
+BLOCKS = (("pendulum", "arm", "hopper"), ("cube",), ("leg",))
 
 
 def scaled(values, rule, strength, rng):

@@ -1,6 +1,6 @@
-// One evaluation of a floating robot's accelerations: the plant with its feet in the ground, MuJoCo with the
-// same feet on its plane, Simbody without a ground. `quadruped_benchmark unitree_go2/go2.xml`: no copy of a
-// foreign model is kept here.
+// One evaluation of a floating robot's accelerations, and a second of standing (standing.h): the plant with
+// its feet in the ground, MuJoCo with the same feet on its plane, Simbody without a ground.
+// `quadruped_benchmark unitree_go2/go2.xml`: no copy of a foreign model is kept here.
 //
 // The three take turns, so that whatever else the machine does falls on all; the best of many rounds counts.
 // Before, all three must agree to 1e-9 without contact. Left out of all: armature, damping, dry friction,
@@ -19,6 +19,7 @@
 #include "simulator/model/known_effects.h"
 #include "simulator/model/plant.h"
 #include "simulator/model/robot_file.h"
+#include "tests/benchmark/standing.h"
 #include "tests/model/mujoco_peer.h"
 
 namespace plumbline::benchmarks {
@@ -239,6 +240,7 @@ void run(const std::string& file) {
   std::printf("| plant, in the air | %.1f |\n", in_air);
   std::printf("| MuJoCo, in the air | %.1f |\n", mujoco_air);
   std::printf("| Simbody, in the air | %.1f |\n", simbodys);
+  time_standing(folder, model.skeleton, mujoco);
 }
 
 }  // namespace

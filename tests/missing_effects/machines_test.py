@@ -81,6 +81,9 @@ class EnergyStays(unittest.TestCase):
                    {"kind": "gravity_tilt", "place": "base", "values": {"angle": 0.05}}]
         self.check("cube", [0.0, 0.3, 0.4], effects, tolerance=5e-4)
 
+    def test_leg(self):
+        self.check("leg", [0.6, 0.9, -0.4], [{"kind": "payload", "place": "shin", "values": {"mass": 0.3, "distance": 0.24}}])
+
     def test_elastic_drive(self):
         self.check("arm", [0.8, -0.5], [{"kind": "elastic_drive", "place": "elbow", "values": {"stiffness": 60.0, "damping": 0.0}}])
 
@@ -134,6 +137,23 @@ class ClosedForms(unittest.TestCase):
         late = states[-100:]
         gained = (late[-1, 3] - late[0, 3]) / (99 * PERIOD)
         self.assertAlmostEqual(gained, GRAVITY * (math.sin(angle) - mu * math.cos(angle)), delta=1e-3)
+
+    def test_leg_that_is_stiff_is_a_pendulum_and_an_arm(self):
+        """With a foot that weighs nothing it is the arm; with knee and ankle that do not move one rigid body."""
+        links = copy.deepcopy(MACHINES["leg"].stated["links"])
+        links["foot"] = dict(links["foot"], mass=0.0, inertia=0.0)
+        arm = MACHINES["arm"]({"links": {"upper": links["thigh"], "fore": links["shin"]}}, 0.1)
+        q, v = [0.3, -0.7, 0.4], [1.1, -2.0, 0.6]
+        mass, bias = MACHINES["leg"]({"links": links}, 0.1).equations(q, v)
+        mass2, bias2 = arm.equations(q[:2], v[:2])
+        self.assertTrue(np.allclose([row[:2] for row in mass[:2]], mass2, rtol=1e-13))
+        self.assertTrue(np.allclose(bias[:2], bias2, rtol=1e-13))
+        links = MACHINES["leg"].stated["links"]
+        mass, bias = MACHINES["leg"]({"links": links}).equations([0.5, 0.0, 0.0], [3.0, 0.0, 0.0])
+        ends = np.cumsum([0.0] + [links[name]["length"] for name in ("thigh", "shin", "foot")])
+        middles = [end + link["center"] for end, link in zip(ends, links.values())]
+        self.assertAlmostEqual(mass[0][0], sum(l["inertia"] + l["mass"] * r ** 2 for l, r in zip(links.values(), middles)), places=14)
+        self.assertAlmostEqual(bias[0], GRAVITY * math.sin(0.5) * sum(l["mass"] * r for l, r in zip(links.values(), middles)), places=13)
 
     def test_payload(self):
         heavier = with_payload({"mass": 1.0, "center": 0.2, "inertia": 0.01, "length": 0.4}, 0.5, 0.5)
