@@ -8,6 +8,7 @@
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/found_values.h"
 #include "validation/identify/diagnose/rescore.h"
+#include "validation/identify/predict/deviations.h"
 #include "validation/identify/predict/lost_windows.h"
 
 namespace plumbline::api {
@@ -183,10 +184,13 @@ Diagnosis diagnosis_of(const TorqueStage& stage, const model::Model& model, cons
 model::Model identified_model(const TorqueStage& stage, std::size_t named) {
   const FreeModel& free = named == 0 ? stage.own : stage.named[named - 1].free;
   model::Model model = validation::identified(free);
+  const auto first = static_cast<int>(model.effects.size() - named);
   for (const FreeValue& value : free.values) {
+    // Nobody has stated what was named: windows may find of it what they ask for.
+    const double own = value.id.effect < first ? 0.0 : std::abs(value.value);
     model.effects[static_cast<std::size_t>(value.id.effect)]
         .values[static_cast<std::size_t>(value.id.parameter)]
-        .uncertainty = value.deviation;
+        .uncertainty = std::max(value.deviation, own);
   }
   return model;
 }
@@ -195,6 +199,12 @@ void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& 
   if (further.ladder.empty()) {
     first.interrupted = further.interrupted;
     return;
+  }
+  Stage& stage = further.final_stage;
+  if (further.precision.deviations.size() == 0 && stage.estimate.x0.size() == data.windows.size()) {
+    validation::PredictorPool pool(stage.model, data);
+    further.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
+                                                 stage.parameters, stage.estimate);
   }
   for (Finding& finding : first.accepted) {
     take_values(further, finding);

@@ -54,6 +54,18 @@ TEST(Conclude, AWithdrawnNameIsToldAndLeavesTheModel) {
   EXPECT_EQ(diagnosis.verdict, Verdict::unexplained);
 }
 
+// The errors that are reported decide, whatever was seen on the way.
+TEST(Conclude, SaysWhetherANameHasRaisedTheHeldOutError) {
+  const Data data = bench_twins({}).thinned(2);
+  Diagnosis diagnosis;
+  diagnosis.accepted.emplace_back();
+  diagnosis.accepted.back().held_out_before = 14.8;
+  diagnosis.accepted.back().held_out_after = 14.7;
+  EXPECT_FALSE(has_risen(data, diagnosis));
+  diagnosis.accepted.back().held_out_after = 19.1;
+  EXPECT_TRUE(has_risen(data, diagnosis));
+}
+
 Finding finding_at(const std::string& effect, const std::string& at) {
   Finding finding;
   finding.effect = effect;

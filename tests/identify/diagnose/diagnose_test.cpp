@@ -31,5 +31,15 @@ TEST(Diagnose, NamesAHiddenActuatorLagAndItsValue) {
   EXPECT_GT(d.accepted[0].held_out_before, 1.3);
 }
 
+// Of one motor each half of it is left, whichever is taken.
+TEST(Diagnose, NamesTheDelayOfABusAndNotThatOfOneOfItsMotors) {
+  const Diagnosis d = diagnose(bench(), some_laws({"actuator_lag", "bus_delay", "command_delay"}),
+                               bench_twins({"bus_delay@world:delay=0.002"}), {}, silent);
+  ASSERT_EQ(d.accepted.size(), 1U);
+  EXPECT_EQ(d.accepted[0].label(), "bus_delay@world");
+  EXPECT_NEAR(d.accepted[0].parameters[0].value, 0.002, 5e-5);
+  EXPECT_LT(d.accepted[0].held_out_after, 1.05);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

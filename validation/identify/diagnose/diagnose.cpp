@@ -11,6 +11,7 @@
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/pair_step.h"
 #include "validation/identify/diagnose/rescore.h"
+#include "validation/identify/diagnose/revise.h"
 #include "validation/identify/diagnose/same_force.h"
 #include "validation/identify/predict/initial_states.h"
 #include "validation/identify/predict/kept_results.h"
@@ -133,6 +134,9 @@ Diagnosis diagnose(const model::Model& model, const effects::Catalogue& catalogu
   try {
     const Followed tried =
         diagnose_windows(with_zero_errors(model, kept), catalogue, some, policy, progress, diagnosis);
+    if (is_below(policy.hopeless, diagnosis.final_stage.estimate, tried.data)) {
+      name_payloads(catalogue, tried.data, policy, progress, diagnosis);
+    }
     finish(kept, tried, some, policy, progress, diagnosis);
     mark_same_forces(fitted_model(diagnosis.final_stage), catalogue, diagnosis.accepted);
     diagnosis.test_before = test_error(model, data);

@@ -1,6 +1,7 @@
 #include "validation/identify/diagnose/revise.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/findings.h"
 #include "validation/identify/diagnose/judged.h"
+#include "validation/identify/diagnose/objection.h"
 #include "validation/identify/diagnose/resample.h"
 
 namespace plumbline::validation {
@@ -154,6 +156,33 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
       const InPlace& winner = simplest_near_best(better, policy);
       replace(i, winner, without, share_better(winner.refit, present, data, policy), data, policy, diagnosis);
       return revise_rivals(catalogue, data, policy, progress, diagnosis);
+    }
+  }
+}
+
+void name_payloads(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
+                   const Progress& progress, Diagnosis& diagnosis) {
+  const std::size_t count = diagnosis.accepted.size();
+  const double near = std::pow(1.0 + policy.simpler, 2);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Finding finding = diagnosis.accepted[i];
+    if (finding.effect != "added_mass" && finding.effect != "com_shift") {
+      continue;
+    }
+    progress("a payload for " + finding.label(), 0.9);
+    const Stage& final_stage = diagnosis.final_stage;
+    const auto effect = static_cast<int>(final_stage.model.effects.size() - count + i);
+    const Stage without = fitted_anew(without_effect(final_stage, effect), data);
+    Refit present;
+    present.estimate = final_stage.estimate;
+    const std::vector<Rival> payload{{{"payload", finding.at}, 0.0, false}};
+    for (const InPlace& one : tried_in_place(without, payload, catalogue, data, policy, progress)) {
+      const double wins = share_better(one.refit, present, data, policy);
+      if (wins >= policy.fair && one.refit.square() < near * present.square() &&
+          refusal(without, one.refit, data, policy).empty()) {
+        replace(i, one, without, wins * finding.selected_share, data, policy, diagnosis);
+        return name_payloads(catalogue, data, policy, progress, diagnosis);
+      }
     }
   }
 }

@@ -14,4 +14,10 @@ Stage without_effect(const Stage& stage, int effect);
 void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
                    const Progress& progress, Diagnosis& diagnosis);
 
+/// A mass that was added to a body, and a centre of mass that was shifted, are what something that hangs
+/// there does. Where a payload at the body leaves the same error, within Policy::simpler, it is the name, and
+/// the other one its rival with the share of the resamples in which it is better.
+void name_payloads(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
+                   const Progress& progress, Diagnosis& diagnosis);
+
 }  // namespace plumbline::validation

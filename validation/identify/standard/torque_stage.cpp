@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
+#include <utility>
 
 namespace plumbline::validation {
 namespace {
@@ -116,6 +118,37 @@ class Judge {
   double length_;
 };
 
+/// A mass that was added to a body, and a centre of mass that was shifted, are what something that hangs
+/// there does: where a payload suits the torques as well, values not counted, it is the name.
+struct Load {
+  FreeModel free;
+  double share = 0.0;  ///< of the resamples in which it suits them better than the other
+};
+
+std::optional<Load> payload_for(const TorqueCandidate& named, const TorqueProblem& problem,
+                                const Judge& judge, const TorqueScreen& screen, const Policy& policy) {
+  if (named.law != "added_mass" && named.law != "com_shift") {
+    return {};
+  }
+  const auto found =
+      std::find_if(screen.ranked.begin(), screen.ranked.end(),
+                   [&](const TorqueCandidate& one) { return one.law == "payload" && one.at == named.at; });
+  if (found == screen.ranked.end()) {
+    return {};
+  }
+  Load load{found->free, 0.0};
+  problem.search(load.free);
+  const bool is_at_limit =
+      std::any_of(load.free.values.begin(), load.free.values.end(), [](const FreeValue& value) {
+        return value.physical && (value.value <= value.lower || value.value >= value.upper);
+      });
+  if (is_at_limit) {
+    return {};
+  }
+  load.share = judge.shares({judge.judged(load.free, 0), judge.judged(named.free, 0)}, policy).front();
+  return load.share < policy.fair ? std::nullopt : std::optional<Load>(std::move(load));
+}
+
 /// What a round says of its candidates, in the order of the screen.
 struct Round {
   std::vector<LawShare> shares;
@@ -177,6 +210,16 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     finding.share = best->share;
     std::copy_if(stage.open.begin() + 1, stage.open.end(), std::back_inserter(finding.rivals),
                  [&](const LawShare& one) { return one.share >= policy.fair; });
+    if (std::optional<Load> load = payload_for(screen.ranked[index], problem, judge, screen, policy)) {
+      LawShare other = *best;
+      other.share *= 1.0 - load->share;
+      if (other.share >= policy.fair) {
+        finding.rivals.insert(finding.rivals.begin(), other);
+      }
+      finding.effect = "payload";
+      finding.free = std::move(load->free);
+      finding.share *= load->share;
+    }
     own = finding.free;
     stage.named.push_back(std::move(finding));
     stage.open.clear();
