@@ -201,7 +201,8 @@ void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& 
     return;
   }
   Stage& stage = further.final_stage;
-  if (further.precision.deviations.size() == 0 && stage.estimate.x0.size() == data.windows.size()) {
+  const bool is_open = !stage.parameters.empty() && stage.estimate.x0.size() == data.windows.size();
+  if (is_open && further.precision.deviations.size() == 0) {
     validation::PredictorPool pool(stage.model, data);
     further.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
                                                  stage.parameters, stage.estimate);

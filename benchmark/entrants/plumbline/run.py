@@ -198,12 +198,16 @@ def translate(case, result):
         share = min(0.95, max(0.05, accepted["selected_share"]))
         names = [{"kind": kind, "place": place, "confidence": share,
                   "values": values_of(case, kind, accepted["at"], accepted["parameters"])}]
-        for rival in accepted["rivals"]:
-            name = (KINDS.get(rival["effect"], "other"), place_of(case, rival["at"]))
-            if name in case.allowed and name not in [(n["kind"], n["place"]) for n in names]:
-                names.append({"kind": name[0], "place": name[1], "confidence": 0.0})
-        for name in names[1:]:
-            name["confidence"] = max(0.01, (1.0 - share) / (len(names) - 1))
+        rivals = [(KINDS.get(rival["effect"], "other"), place_of(case, rival["at"])) for rival in accepted["rivals"]]
+        rivals = [name for name in rivals if name == (kind, place) or name in case.allowed]
+        for rival in rivals:  # laws of one kind share a name
+            one = next((n for n in names if (n["kind"], n["place"]) == rival), None)
+            if one is None:
+                one = {"kind": rival[0], "place": rival[1], "confidence": 0.0}
+                names.append(one)
+            one["confidence"] += (1.0 - share) / len(rivals)
+        for name in names:
+            name["confidence"] = min(0.95, max(0.01, name["confidence"]))
         slots.append(names)
     if verdict == "outside":
         for name in (n for names in slots for n in names):
