@@ -9,7 +9,16 @@
 namespace plumbline::effects {
 namespace {
 
-enum Index : std::size_t { kCubicStiffness, kDamping, kRootDamping, kPosition, kSide, kRootSpeed, kRounding };
+enum Index : std::size_t {
+  kCubicStiffness,
+  kDamping,
+  kRootDamping,
+  kPosition,
+  kSide,
+  kRootSpeed,
+  kRounding,
+  kStiffness
+};
 
 double penetration(const Motion& m, const double* p) { return p[kSide] * (m.position - p[kPosition]); }
 
@@ -25,7 +34,7 @@ const Declaration& HardStop::declaration() const {
   static const Declaration kDeclaration{
       "hard_stop",
       "a stiff, damped contact beyond a position",
-      "f = -side*(cubic_stiffness*d^3 + damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + "
+      "f = -side*(stiffness*d + cubic_stiffness*d^3 + damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + "
       "rounding)/root_speed) - sqrt(rounding/root_speed))) if d > 0 else 0; d = side*(x - position); d_rate "
       "= "
       "side*v",
@@ -39,7 +48,8 @@ const Declaration& HardStop::declaration() const {
        fixed("root_speed", "{position}/s", "speed that the root is taken relative to", 1.0, kSmallestPositive,
              kInfinity),
        fixed("rounding", "{position}/s",
-             "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0, kInfinity)},
+             "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0, kInfinity),
+       non_negative("stiffness", "{force}/{position}", "linear stiffness")},
       {},
       ""};
   return kDeclaration;
@@ -53,7 +63,8 @@ Values HardStop::typical(const Scales& scales) const {
           s.position,
           1.0,
           1.0,
-          1e-3 * s.velocity};
+          1e-3 * s.velocity,
+          s.force / s.position};
 }
 
 std::vector<Values> HardStop::starts(const Scales& scales) const {
@@ -71,18 +82,19 @@ std::vector<Values> HardStop::starts(const Scales& scales) const {
 }
 
 bool HardStop::is_null(const double* p) const {
-  return p[kCubicStiffness] == 0.0 && p[kDamping] == 0.0 && p[kRootDamping] == 0.0;
+  return p[kCubicStiffness] == 0.0 && p[kDamping] == 0.0 && p[kRootDamping] == 0.0 && p[kStiffness] == 0.0;
 }
 
 double HardStop::force(const Motion& m, const double* /*state*/, const double* p) const {
   const double d = penetration(m, p);
   if (d <= 0.0) return 0.0;
-  return -p[kSide] * (p[kCubicStiffness] * d * d * d + damping_force(p[kSide] * m.velocity, p));
+  return -p[kSide] *
+         (p[kStiffness] * d + p[kCubicStiffness] * d * d * d + damping_force(p[kSide] * m.velocity, p));
 }
 
 double HardStop::stored_energy(const Motion& m, const double* /*state*/, const double* p) const {
   const double d = std::max(penetration(m, p), 0.0);
-  return 0.25 * p[kCubicStiffness] * d * d * d * d;
+  return 0.5 * p[kStiffness] * d * d + 0.25 * p[kCubicStiffness] * d * d * d * d;
 }
 
 double HardStop::dissipated_power(const Motion& m, const double* /*state*/, const double* p) const {

@@ -35,6 +35,18 @@ TEST_F(HardStopTest, GivesTheTorquesOfTableEight) {
   EXPECT_NEAR(force(-0.1, 4.0, p), 0.1 - 8.0, 1e-12);           // moving out: no root term
 }
 
+// Rubber, or the plain penalty of a simulator: Hooke's law and a dashpot, beside the cubic term.
+TEST_F(HardStopTest, MayBeLinear) {
+  Values p = values_of(*law, {{"stiffness", 300.0}, {"damping", 2.0}, {"position", 0.5}, {"side", 1.0}});
+  EXPECT_NEAR(force(0.51, 0.0, p), -3.0, 1e-12);
+  EXPECT_NEAR(force(0.51, 4.0, p), -3.0 - 8.0, 1e-12);
+  EXPECT_EQ(force(0.49, 4.0, p), 0.0);
+  EXPECT_NEAR(law->stored_energy({0.6, 0.0, 0.0}, nullptr, p.data()), 0.5 * 300.0 * 0.01, 1e-12);
+  EXPECT_FALSE(law->is_null(p.data()));
+  p = values_of(*law, {{"position", 0.5}});
+  EXPECT_TRUE(law->is_null(p.data()));
+}
+
 TEST_F(HardStopTest, IsItsOwnMirrorImage) {
   const Values above = stop(0.7, 1.0);
   const Values below = stop(-0.7, -1.0);

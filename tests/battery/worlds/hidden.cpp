@@ -31,8 +31,8 @@ double stop_force(const Hidden& e, const PlaceMotion& m) {
   const double in = e["side"] * m.v;
   const double rounding = e["rounding"];
   const double root = in > 0.0 ? std::sqrt(in + rounding) - std::sqrt(rounding) : 0.0;
-  return -e["side"] *
-         (e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in + e["root_damping"] * root);
+  return -e["side"] * (e["stiffness"] * deep + e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in +
+                       e["root_damping"] * root);
 }
 
 double one_sided_spring(const Hidden& e, const PlaceMotion& m) {
