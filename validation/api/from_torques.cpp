@@ -202,7 +202,7 @@ void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& 
   }
   Stage& stage = further.final_stage;
   const bool is_open = !stage.parameters.empty() && stage.estimate.x0.size() == data.windows.size();
-  if (is_open && further.precision.deviations.size() == 0) {
+  if (is_open && !further.interrupted && further.precision.deviations.size() == 0) {
     validation::PredictorPool pool(stage.model, data);
     further.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
                                                  stage.parameters, stage.estimate);
