@@ -16,8 +16,7 @@ const Declaration& BusDelay::declaration() const {
       "bus_delay",
       "commands of all motors of a limb, or of the robot, that take effect later",
       "torque(t) = u(t - delay) of every motor there",
-      "Tindell, Burns and Wellings, Control Engineering Practice 3(8), 1995, section 3 (time from queueing "
-      "to "
+      "Tindell, Burns and Wellings, Control Engineering Practice 3(8), 1995, section 3 (from queueing to "
       "arrival on a CAN bus)",
       {Place::limb},
       {non_negative("delay", "s", "time between commands and effect")},

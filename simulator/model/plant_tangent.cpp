@@ -321,14 +321,21 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
       return;
     }
   }
-  Eigen::VectorXd of_motor(nx_);
+  bool is_found = false;
   for (int m = 0; m < motors(); ++m) {
     for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
-      if (slot.effect == id.effect) {  // a limb's law stands at several motors
+      if (slot.effect == id.effect && !is_found) {
+        actuator_parameter_tangent(m, slot, sample, x, A, moved, step, column);
+        is_found = true;
+      } else if (slot.effect == id.effect) {  // a limb's law stands at several motors
+        Eigen::VectorXd of_motor(nx_);
         actuator_parameter_tangent(m, slot, sample, x, A, moved, step, of_motor);
         column += of_motor;
       }
     }
+  }
+  if (is_found) {
+    return;
   }
   for (const ActuatorSlot& slot : actuators_.back()) {
     if (slot.effect == id.effect) {
