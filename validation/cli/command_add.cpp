@@ -92,7 +92,7 @@ void add_add(CLI::App& app, Outcome& /*outcome*/) {
   CLI::Option* at =
       command
           ->add_option("--at", options->at,
-                       "where one EFFECT sits: coordinate, motor, ratio, body, sensor, foot, or world")
+                       "where one EFFECT sits: coordinate, motor, ratio, body, sensor, foot, limb, or world")
           ->type_name("WHERE");
   CLI::Option_group* base = command->add_option_group("base", "the model that it is added to");
   base->add_option("--model", options->model, "model file")->type_name("FILE");
