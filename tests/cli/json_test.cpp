@@ -70,7 +70,7 @@ TEST_F(Json, CheckOfAModel) {
   constexpr double turn = 6.283185307179586;
   EXPECT_NEAR(sensor["floor"], turn / 4096 / std::sqrt(12.0), 1e-12);
   EXPECT_THAT(keys(model["places"]), UnorderedElementsAre("coordinate", "motor", "ratio", "body", "sensor",
-                                                          "world", "foot", "base", "contact switch"));
+                                                          "world", "foot", "base", "contact switch", "limb"));
   EXPECT_EQ(model["places"]["ratio"], json::array({"shoulder"}));
 }
 

@@ -25,7 +25,7 @@ class Sealed(unittest.TestCase):
         cls.hashes = cls.path("hashes.json")
         with open(cls.path("secret"), "w", encoding="utf-8") as file:
             file.write(SECRET + "\n")
-        cls.made = make("--out", cls.path("made"), "--secret-file", cls.path("secret"), "--only", "cube", "--count", "5",
+        cls.made = make("--out", cls.path("made"), "--secret-file", cls.path("secret"), "--only", "cube", "--count", "16",
                         "--prefix", "sealed_", "--hashes", cls.hashes)
 
     @classmethod
