@@ -56,7 +56,7 @@ def number(value, unit, deviation=0.0):
 
 def model_text(case):
     about, joints = case.about, [r for r in case.about["recordings"][0]["start"]]
-    lines = ["plumbline: model/1", f"robot: {about['title']}", "skeleton: robot.urdf",
+    lines = ["plumbline: model/1", f"robot: {json.dumps(about['title'])}", "skeleton: robot.urdf",
              f"gravity: {number(about['gravity']['value'], 'm/s^2')}", "masses:"]
     for link, mass in about["masses"].items():
         share = 100.0 * mass["standard_deviation"] / mass["value"]
