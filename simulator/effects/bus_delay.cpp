@@ -1,15 +1,8 @@
 #include "simulator/effects/bus_delay.h"
 
-#include <cstddef>
-
 #include "simulator/effects/parameters.h"
 
 namespace plumbline::effects {
-namespace {
-
-enum Index : std::size_t { kDelay };
-
-}  // namespace
 
 const Declaration& BusDelay::declaration() const {
   static const Declaration kDeclaration{
@@ -24,18 +17,5 @@ const Declaration& BusDelay::declaration() const {
       ""};
   return kDeclaration;
 }
-
-Values BusDelay::typical(const Scales& scales) const {
-  const Scales s = guarded(scales);
-  return {s.position / s.velocity};
-}
-
-std::vector<Values> BusDelay::starts(const Scales& /*scales*/) const { return {null_values()}; }
-
-double BusDelay::torque(double commanded, const double* /*state*/, const double* /*p*/) const {
-  return commanded;
-}
-
-double BusDelay::delay(const double* p) const { return p[kDelay]; }
 
 }  // namespace plumbline::effects

@@ -10,7 +10,7 @@ namespace plumbline::effects {
 /// torque(t) = u(t - delay)                        [N m or N], delay in s
 /// The delay itself is carried out by whoever holds the command; torque() passes it on.
 /// Source: Astrom and Murray, Feedback Systems (2008), time delay.
-class CommandDelay final : public ActuatorLaw {
+class CommandDelay : public ActuatorLaw {
  public:
   const Declaration& declaration() const override;
   Values typical(const Scales& scales) const override;
