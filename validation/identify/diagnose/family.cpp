@@ -73,6 +73,8 @@ bool is_forerunner(const effects::Law& first, const effects::Law& law) {
 
 bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
 
+bool may_be_payload(const std::string& law) { return law == "added_mass" || law == "com_shift"; }
+
 TiedPlaces::TiedPlaces(const model::Model& model) {
   const model::Plant plant(model, {});
   const auto add = [&](const std::string& name) {

@@ -29,6 +29,9 @@ bool are_of_one_family(const effects::Law& one, const effects::Law& other);
 
 bool is_friction(const effects::Law& law);
 
+/// Does the law of this name change a body as something that hangs there does?
+bool may_be_payload(const std::string& law);
+
 /// Is the law so costly to try (it has states, or is nothing but beyond a threshold) that laws which depend
 /// on the same are asked first?
 bool has_forerunners(const effects::Law& law);

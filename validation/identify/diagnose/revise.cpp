@@ -44,6 +44,20 @@ bool is_asked(const Candidate& candidate, const std::vector<Candidate>& all,
   });
 }
 
+/// A finding in question: what is left without it, fitted, and the answer with it.
+struct InQuestion {
+  Stage without;
+  Refit present;
+};
+
+InQuestion in_question(std::size_t finding, const Data& data, const Diagnosis& diagnosis) {
+  const Stage& stage = diagnosis.final_stage;
+  const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + finding);
+  InQuestion asked{fitted_anew(without_effect(stage, effect), data), {}};
+  asked.present.estimate = stage.estimate;
+  return asked;
+}
+
 /// Each rival that is a candidate of its own, refitted in the place of an effect, and what it may contain.
 std::vector<InPlace> tried_in_place(const Stage& without, const std::vector<Rival>& rivals,
                                     const effects::Catalogue& catalogue, const Data& data,
@@ -138,11 +152,7 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
       continue;
     }
     progress("the rivals of " + finding.label(), 0.9);
-    const Stage& final_stage = diagnosis.final_stage;
-    const auto effect = static_cast<int>(final_stage.model.effects.size() - count + i);
-    const Stage without = fitted_anew(without_effect(final_stage, effect), data);
-    Refit present;
-    present.estimate = final_stage.estimate;
+    const auto [without, present] = in_question(i, data, diagnosis);
     std::vector<InPlace> better;
     for (InPlace& one : tried_in_place(without, finding.rivals, catalogue, data, policy, progress)) {
       const double wins = share_better(one.refit, present, data, policy);
@@ -166,15 +176,11 @@ void name_payloads(const effects::Catalogue& catalogue, const Data& data, const 
   const double near = std::pow(1.0 + policy.simpler, 2);
   for (std::size_t i = 0; i < count; ++i) {
     const Finding finding = diagnosis.accepted[i];
-    if (finding.effect != "added_mass" && finding.effect != "com_shift") {
+    if (!may_be_payload(finding.effect)) {
       continue;
     }
     progress("a payload for " + finding.label(), 0.9);
-    const Stage& final_stage = diagnosis.final_stage;
-    const auto effect = static_cast<int>(final_stage.model.effects.size() - count + i);
-    const Stage without = fitted_anew(without_effect(final_stage, effect), data);
-    Refit present;
-    present.estimate = final_stage.estimate;
+    const auto [without, present] = in_question(i, data, diagnosis);
     const std::vector<Rival> payload{{{"payload", finding.at}, 0.0, false}};
     for (const InPlace& one : tried_in_place(without, payload, catalogue, data, policy, progress)) {
       const double wins = share_better(one.refit, present, data, policy);

@@ -32,6 +32,9 @@ struct FreeValue {
   bool known = true;       ///< spread counts as knowledge; else it is a scale only
   bool seen = true;        ///< the data depend on it; else it stays as stated
   bool at_limit = false;
+
+  /// Is it where the robot cannot be?
+  bool is_unphysical() const { return physical && (value <= lower || value >= upper); }
 };
 
 /// Which values: all of free_values(), or those of motors and joints only, the bodies' as stated.

@@ -58,9 +58,8 @@ class Screen {
   /// Is one of its own values where the robot cannot be?
   bool is_at_limit(const TorqueCandidate& candidate) const {
     const auto first = candidate.free.values.begin() + static_cast<std::ptrdiff_t>(count());
-    return std::any_of(first, candidate.free.values.end(), [](const FreeValue& value) {
-      return value.physical && (value.value <= value.lower || value.value >= value.upper);
-    });
+    return std::any_of(first, candidate.free.values.end(),
+                       [](const FreeValue& value) { return value.is_unphysical(); });
   }
 
   /// All slopes anew: what was held from the model's own numbers alone may have changed.

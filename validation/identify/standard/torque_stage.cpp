@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "validation/identify/diagnose/family.h"
+
 namespace plumbline::validation {
 namespace {
 
@@ -127,7 +129,7 @@ struct Load {
 
 std::optional<Load> payload_for(const TorqueCandidate& named, const TorqueProblem& problem,
                                 const Judge& judge, const TorqueScreen& screen, const Policy& policy) {
-  if (named.law != "added_mass" && named.law != "com_shift") {
+  if (!may_be_payload(named.law)) {
     return {};
   }
   const auto found =
@@ -138,11 +140,8 @@ std::optional<Load> payload_for(const TorqueCandidate& named, const TorqueProble
   }
   Load load{found->free, 0.0};
   problem.search(load.free);
-  const bool is_at_limit =
-      std::any_of(load.free.values.begin(), load.free.values.end(), [](const FreeValue& value) {
-        return value.physical && (value.value <= value.lower || value.value >= value.upper);
-      });
-  if (is_at_limit) {
+  if (std::any_of(load.free.values.begin(), load.free.values.end(),
+                  [](const FreeValue& value) { return value.is_unphysical(); })) {
     return {};
   }
   load.share = judge.shares({judge.judged(load.free, 0), judge.judged(named.free, 0)}, policy).front();
