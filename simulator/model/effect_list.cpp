@@ -168,24 +168,40 @@ void read_effects(const YamlNode& list, const effects::Catalogue& catalogue, Mod
   }
 }
 
+const Quantity* find_value(const Model& model, const std::string& name) {
+  for (const NamedParameter& known : named_parameters(model)) {
+    if (known.name == name) {
+      return &model.effects[known.effect].values[static_cast<std::size_t>(known.parameter)];
+    }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> value_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const NamedParameter& known : named_parameters(model)) {
+    names.push_back(known.name);
+  }
+  return names;
+}
+
 void replace_values(const YamlNode& map, Model& model) {
   const std::vector<NamedParameter> named = named_parameters(model);
+  std::vector<std::string> replaced;
   for (const auto& [key, quantity] : map.entries()) {
     const std::string& wanted = key;
     const auto found = std::find_if(named.begin(), named.end(),
                                     [&](const NamedParameter& known) { return known.name == wanted; });
     if (found == named.end()) {
-      std::vector<std::string> names;
-      names.reserve(named.size());
-      for (const NamedParameter& known : named) {
-        names.push_back(known.name);
-      }
-      quantity.refuse("an unknown value", "effect@place:parameter of the model" + nearest_names(key, names));
+      quantity.refuse("an unknown value",
+                      "effect@place:parameter of the model" + nearest_names(key, value_names(model)));
     }
     EffectUse& use = model.effects[found->effect];
     use.values[static_cast<std::size_t>(found->parameter)] =
         read_parameter(quantity, model, use, found->parameter);
+    replaced.push_back(key);
   }
+  model.correlations = model.correlations.without(replaced);  // they hung together as they were known before
 }
 
 }  // namespace plumbline::model

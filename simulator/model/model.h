@@ -13,6 +13,7 @@
 #include "simulator/effects/catalogue.h"
 #include "simulator/effects/law.h"
 #include "simulator/model/arc.h"
+#include "simulator/model/correlations.h"
 
 namespace plumbline::model {
 
@@ -257,6 +258,7 @@ struct Model {
   std::vector<Loop> loops;       ///< the skeleton's and the model's own
   std::vector<Lock> loops_near;  ///< positions of joints near which the loops are closed first
   std::vector<EffectUse> effects;
+  Correlations correlations;  ///< of what is stated of the effects' values
   std::vector<Sensor> sensors;
   std::vector<ContactSwitch> switches;  ///< among the file's sensors, but they measure no position
 

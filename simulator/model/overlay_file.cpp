@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "simulator/model/correlations_section.h"
 #include "simulator/model/effect_list.h"
 #include "simulator/model/robot_reader.h"
 #include "simulator/model/yaml_chain.h"
@@ -55,7 +56,8 @@ const effects::Law& law_of(const AddedEffect& added, const effects::Catalogue& c
 
 void write_overlay(const std::string& path, const std::string& base_file,
                    const std::vector<AddedEffect>& added, const std::vector<NewValue>& values,
-                   const std::string& note, const effects::Catalogue& catalogue) {
+                   const std::string& note, const effects::Catalogue& catalogue,
+                   const Correlations& correlations) {
   Model model = read_model(base_file, catalogue);
   YAML::Emitter out;
   begin_overlay(out, path, "model/1", base_file, note);
@@ -74,8 +76,13 @@ void write_overlay(const std::string& path, const std::string& base_file,
     out << YAML::EndMap;
   }
   out << YAML::EndMap;
-  const std::string text = std::string(out.c_str()) + "\n";
+  std::string text = std::string(out.c_str()) + "\n";
   apply_overlay(YamlNode::parse(text, path), catalogue, model);  // refuse before anything is written
+  const Correlations written = correlations_of_uncertain(correlations, model);
+  if (!written.empty()) {
+    text += correlations_text(written);
+    read_correlations(YamlNode::parse(text, path).at("correlations"), model);
+  }
   write_text_atomically(path, text);
 }
 

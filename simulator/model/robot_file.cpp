@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/model/correlations_section.h"
 #include "simulator/model/effect_list.h"
 #include "simulator/model/from_data_sheets.h"
 #include "simulator/model/joint_chain.h"
@@ -85,7 +86,7 @@ void tie_mimics(const YamlNode& root, Model& model) {
 Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skeleton skeleton) {
   root.allow_keys({"plumbline", "robot", "skeleton", "floating_base", "gravity", "masses", "coordinates",
                    "motors", "pulleys", "ratios", "inertias", "sensors", "feet", "contacts", "loops",
-                   "effects", "joint_dynamics"});
+                   "effects", "correlations", "joint_dynamics"});
   Model model;
   model.file = root.file();
   model.robot = root.at("robot").text();
@@ -120,13 +121,15 @@ Model read_base(const YamlNode& root, const effects::Catalogue& catalogue, Skele
   if (const auto dynamics = root.find("joint_dynamics")) {
     take_joint_dynamics(*dynamics, catalogue, model);
   }
+  read_section(root, "correlations", read_correlations, model);
   return model;
 }
 
 }  // namespace
 
 void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue, Model& model) {
-  overlay.allow_keys({"plumbline", "base", "note", "skeleton", "sensors", "effects", "values"});
+  overlay.allow_keys(
+      {"plumbline", "base", "note", "skeleton", "sensors", "effects", "values", "correlations"});
   if (const auto note = overlay.find("note")) {
     note->text();
   }
@@ -144,6 +147,7 @@ void apply_overlay(const YamlNode& overlay, const effects::Catalogue& catalogue,
   if (const auto values = overlay.find("values")) {
     replace_values(*values, model);
   }
+  read_section(overlay, "correlations", read_correlations, model);
 }
 
 Model read_model(const std::string& path, const effects::Catalogue& catalogue,

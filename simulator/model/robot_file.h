@@ -38,9 +38,11 @@ struct NewValue {
 };
 /// Writes an overlay file `path` whose base is `base_file` (path kept relative to the overlay). The overlay
 /// is read back before it is written: throws InputError, and writes nothing, when the base does not know a
-/// name or a value is outside its bounds. The catalogue gives the parameters' names and units.
+/// name or a value is outside its bounds. The catalogue gives the parameters' names and units; `correlations`
+/// how the deviations of what is written hang together.
 void write_overlay(const std::string& path, const std::string& base_file,
                    const std::vector<AddedEffect>& added, const std::vector<NewValue>& values,
-                   const std::string& note, const effects::Catalogue& catalogue);
+                   const std::string& note, const effects::Catalogue& catalogue,
+                   const Correlations& correlations = {});
 
 }  // namespace plumbline::model

@@ -72,8 +72,8 @@ Diagnosis diagnosed(const FromTorques& torques, const Loaded& loaded, const effe
   // Behind several effects, hundreds of floors away, no pairs are looked for (Policy::hopeless).
   validation::Policy further = options;
   further.firsts = further.linear_pairs = 0;
-  join(validation::diagnose(model, catalogue, *loaded.data, further, progress), *loaded.data, options,
-       diagnosis);
+  join(validation::diagnose(model, catalogue, *loaded.data, further, progress), catalogue, *loaded.data,
+       options, progress, diagnosis);
   return diagnosis;
 }
 
@@ -332,8 +332,9 @@ void save(const Diagnosis& diagnosis, const model::Model& given, const std::stri
     values.push_back({parameter.label, value_at(stage.model, parameter.id),
                       std::isfinite(deviation) ? deviation : 0.0, parameter.unit, "diagnose"});
   }
-  model::write_overlay(file, given.file, added, values, "written by plumbline diagnose",
-                       model::known_effects());
+  model::write_overlay(
+      file, given.file, added, values, "written by plumbline diagnose", model::known_effects(),
+      validation::correlations_of(stage.parameters, stage.estimate.theta, diagnosis.precision));
 }
 
 }  // namespace plumbline::api

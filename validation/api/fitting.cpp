@@ -80,7 +80,8 @@ void save(const Fit& fit, const Loaded& loaded, const std::string& file) {
       values.push_back({parameter.label, parameter.after, parameter.deviation, parameter.unit, source});
     }
   }
-  model::write_overlay(file, loaded.model.file, {}, values, "values " + source, model::known_effects());
+  model::write_overlay(file, loaded.model.file, {}, values, "values " + source, model::known_effects(),
+                       fit.together);
 }
 
 }  // namespace plumbline::api

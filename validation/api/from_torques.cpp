@@ -8,6 +8,7 @@
 #include "validation/identify/diagnose/finish.h"
 #include "validation/identify/diagnose/found_values.h"
 #include "validation/identify/diagnose/rescore.h"
+#include "validation/identify/diagnose/revise.h"
 #include "validation/identify/predict/deviations.h"
 #include "validation/identify/predict/lost_windows.h"
 
@@ -28,9 +29,9 @@ using validation::TorqueStage;
 Stage stage_of(const FreeModel& free, const Data& data) {
   Stage stage;
   stage.model = free.model;
+  stage.parameters = validation::as_parameters(free);
   Eigen::VectorXd theta(static_cast<Eigen::Index>(free.values.size()));
   for (std::size_t i = 0; i < free.values.size(); ++i) {
-    stage.parameters.push_back(validation::as_parameter(free.values[i]));
     theta[static_cast<Eigen::Index>(i)] = free.values[i].value;
   }
   validation::PredictorPool pool(validation::identified(free), data);
@@ -119,6 +120,25 @@ bool floats_freely(const model::Model& model, const Data& data) {
   });
 }
 
+/// Low-passed torques may put something that hangs at a link where it cannot be, and then name the centre of
+/// mass: windows are asked, too. An interruption leaves what is named.
+void ask_windows_for_payloads(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
+                              const Progress& progress, Diagnosis& diagnosis) {
+  const std::size_t rungs = diagnosis.ladder.size();
+  try {
+    validation::name_payloads(catalogue, data, policy, progress, diagnosis);
+    if (diagnosis.ladder.size() > rungs) {
+      const Stage& named = diagnosis.final_stage;
+      validation::PredictorPool pool(named.model, data);
+      diagnosis.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
+                                                     named.parameters, named.estimate);
+      validation::compare_rungs(data, progress, diagnosis);
+    }
+  } catch (const validation::Stopped&) {
+    diagnosis.interrupted = true;
+  }
+}
+
 }  // namespace
 
 std::optional<validation::StandardFit> torque_identification(const model::Model& model, const Data& data,
@@ -195,7 +215,8 @@ model::Model identified_model(const TorqueStage& stage, std::size_t named) {
   return model;
 }
 
-void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& first) {
+void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
+          const Progress& progress, Diagnosis& first) {
   if (further.ladder.empty()) {
     first.interrupted = further.interrupted;
     return;
@@ -220,6 +241,9 @@ void join(Diagnosis further, const Data& data, const Policy& policy, Diagnosis& 
   further.bare_rungs = first.bare_rungs;
   further.test_before = first.test_before;
   first = std::move(further);
+  if (is_open && !first.interrupted && first.final_stage.estimate.scores.train < policy.hopeless) {
+    ask_windows_for_payloads(catalogue, data, policy, progress, first);
+  }
   validation::conclude(data, policy, first);
 }
 

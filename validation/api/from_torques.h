@@ -40,7 +40,8 @@ validation::Diagnosis diagnosis_of(const validation::TorqueStage& stage, const m
 model::Model identified_model(const validation::TorqueStage& stage, std::size_t named);
 
 /// Findings and rungs of `further`, which began at identified_model(), behind those of `first`.
-void join(validation::Diagnosis further, const validation::Data& data, const validation::Policy& policy,
+void join(validation::Diagnosis further, const effects::Catalogue& catalogue, const validation::Data& data,
+          const validation::Policy& policy, const validation::Progress& progress,
           validation::Diagnosis& first);
 
 }  // namespace plumbline::api

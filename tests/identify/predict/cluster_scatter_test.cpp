@@ -19,7 +19,7 @@ Reduced window(const Eigen::MatrixXd& J, const Eigen::VectorXd& r) {
 }
 
 Scatter scatter_of(const std::vector<Reduced>& windows, Eigen::Index n) {
-  return cluster_scatter(windows, Eigen::VectorXd::Constant(n, 1e-9), Eigen::MatrixXd::Zero(n, n));
+  return cluster_scatter(windows, 1e-9 * Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n));
 }
 
 // The mean of m numbers: variance s^2/m with s^2 = sum (y - mean)^2/(m - 1), of m - 1 degrees of freedom.
@@ -55,7 +55,7 @@ TEST(ClusterScatter, OneWindowSaysNothingOfHowSure) {
 TEST(ClusterScatter, WhatIsOnlyKnownBeforehandIsAsSureAsItSays) {
   const std::vector<Reduced> windows(6, window(Eigen::MatrixXd::Zero(1, 1), Eigen::VectorXd::Zero(1)));
   const Scatter scatter =
-      cluster_scatter(windows, Eigen::VectorXd::Constant(1, 16.0), Eigen::MatrixXd::Zero(1, 1));
+      cluster_scatter(windows, Eigen::MatrixXd::Constant(1, 1, 16.0), Eigen::MatrixXd::Zero(1, 1));
   EXPECT_NEAR(scatter.covariance(0, 0), 1.0 / 16.0, 1e-12);
   EXPECT_TRUE(std::isinf(scatter.freedom[0]));
 }

@@ -402,6 +402,7 @@ std::vector<FreeParameter> searched_parameters_of(const model::Model& model, con
   free.erase(std::remove_if(free.begin(), free.end(), has_none), free.end());
   for (FreeParameter& one : free) {
     keep_physical(model, use, one);
+    keep_physical(scales, use, one);
     if (effects::is_rest(use.law->declaration().parameters[static_cast<std::size_t>(one.id.parameter)])) {
       one.lower = std::max(one.lower, scales.center - kReach * scales.position);
       one.upper = std::min(one.upper, scales.center + kReach * scales.position);

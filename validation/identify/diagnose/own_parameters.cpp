@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "validation/identify/diagnose/candidates.h"
 #include "validation/identify/diagnose/physical_limits.h"
@@ -106,6 +107,7 @@ model::Model with_stated_errors(const model::Model& model, std::size_t named) {
 
 std::vector<FreeParameter> stated_parameters(const model::Model& model, double width) {
   std::vector<FreeParameter> free;
+  const auto together = std::make_shared<const model::Correlations>(model.correlations);
   for (std::size_t e = 0; e < model.effects.size(); ++e) {
     const model::EffectUse& use = model.effects[e];
     const bool angular = model.place_is_angular(model.resolve(*use.law, use.at), use.at);
@@ -120,6 +122,7 @@ std::vector<FreeParameter> stated_parameters(const model::Model& model, double w
       parameter.mean = quantity.value;
       parameter.deviation = quantity.uncertainty;
       parameter.typical = std::max(std::abs(quantity.value), quantity.uncertainty);
+      parameter.together = together;
       free.push_back(parameter);
     }
   }
@@ -195,9 +198,11 @@ double evidence_for_stated(const Stage& stage, const Data& data, double width) {
     left.H.col(p) *= deviation;
     shift[p] = (open.theta.tail(own)[p] - parameter.mean) / parameter.deviation;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> known(left.H + Eigen::MatrixXd::Identity(own, own));
+  const Eigen::LDLT<Eigen::MatrixXd> stated(known_correlation(open.parameters));
+  const Eigen::LDLT<Eigen::MatrixXd> known(left.H + stated.solve(Eigen::MatrixXd::Identity(own, own)));
   const Eigen::VectorXd pull = left.g + left.H * shift;
-  return 0.5 * (known.vectorD().array().abs().log().sum() - pull.dot(known.solve(pull)));
+  return 0.5 * (known.vectorD().array().abs().log().sum() + stated.vectorD().array().abs().log().sum() -
+                pull.dot(known.solve(pull)));
 }
 
 std::vector<OwnParameter> own_values(const Stage& stage) {

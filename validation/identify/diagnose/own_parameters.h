@@ -34,9 +34,9 @@ Stage with_open_numbers(const Stage& stage, std::size_t named, double width, con
 
 /// How much more probable the data are with every own parameter exactly as stated than with them scattered as
 /// what is stated of them says, natural logarithm (Savage-Dickey density ratio): with the own parameters d
-/// from what is stated, in stated deviations, and S and g their normal equations there, all others
-/// eliminated,
-///   log B = (log det(I + S) - m' (I + S) m) / 2,  (I + S) m = g + S d.
+/// from what is stated, in stated deviations, C how these hang together (FreeParameter::together), and S and
+/// g their normal equations there, all others eliminated,
+///   log B = (log det C + log det(C^-1 + S) - m' (C^-1 + S) m) / 2,  (C^-1 + S) m = g + S d.
 /// Above zero the data speak for the stated numbers. The stage's own numbers are as stated (d = 0), or some
 /// of them are among its parameters and stand where they were fitted; the others count for nothing then.
 /// Source: Dickey, Annals of Mathematical Statistics 42, 1971; Kass and Raftery, J. American Statistical

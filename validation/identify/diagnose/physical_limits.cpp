@@ -74,4 +74,13 @@ void keep_physical(const model::Model& model, const model::EffectUse& use, FreeP
   parameter.upper = std::min(parameter.upper, std::max(value, limits.upper));
 }
 
+void keep_physical(const effects::Scales& motion, const model::EffectUse& use, FreeParameter& parameter) {
+  if (use.law->declaration().name == "resonator" &&
+      parameter.id.parameter == use.law->parameter_index("inertia")) {
+    const double value = use.values[static_cast<std::size_t>(parameter.id.parameter)].value;
+    parameter.physical = true;
+    parameter.upper = std::min(parameter.upper, std::max(value, motion.inertia));
+  }
+}
+
 }  // namespace plumbline::validation

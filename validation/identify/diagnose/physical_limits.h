@@ -16,4 +16,8 @@ namespace plumbline::validation {
 /// The value that stands in `use` stays allowed. Other parameters are left as they are.
 void keep_physical(const model::Model& model, const model::EffectUse& use, FreeParameter& parameter);
 
+/// The same by what the robot feels there, over the motion. resonator: what rides on a link has no more
+/// inertia than all that moves with it; it is a part of that.
+void keep_physical(const effects::Scales& motion, const model::EffectUse& use, FreeParameter& parameter);
+
 }  // namespace plumbline::validation

@@ -50,7 +50,7 @@ Promise promise_of(const LinearProblem& problem, const std::vector<Eigen::Index>
   const Prior& known = problem.known;
   const Room& bounds = problem.bounds;
   const Foretold foretold = foretell(chosen_of(problem.train, chosen), chosen_of(problem.held_out, chosen),
-                                     {known.square, chosen_of(known.g, chosen), chosen_of(known.H, chosen)},
+                                     {known.square, chosen_of(known.g, chosen), known.H(chosen, chosen)},
                                      {chosen_of(bounds.lower, chosen), chosen_of(bounds.upper, chosen)});
   return {foretold.train_step, mean_square(foretold.train, problem.train),
           mean_square(foretold.held_out, problem.held_out)};

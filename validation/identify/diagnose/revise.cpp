@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -52,7 +53,15 @@ struct InQuestion {
 
 InQuestion in_question(std::size_t finding, const Data& data, const Diagnosis& diagnosis) {
   const Stage& stage = diagnosis.final_stage;
-  const auto effect = static_cast<int>(stage.model.effects.size() - diagnosis.accepted.size() + finding);
+  const std::vector<model::EffectUse>& uses = stage.model.effects;
+  const Finding& asked_of = diagnosis.accepted[finding];
+  const auto use = std::find_if(uses.rbegin(), uses.rend(), [&](const model::EffectUse& one) {
+    return one.at == asked_of.at && one.law->declaration().name == asked_of.effect;
+  });
+  if (use == uses.rend()) {
+    throw std::logic_error(asked_of.label() + " was named and is not in the model");
+  }
+  const auto effect = static_cast<int>(uses.rend() - use) - 1;
   InQuestion asked{fitted_anew(without_effect(stage, effect), data), {}};
   asked.present.estimate = stage.estimate;
   return asked;

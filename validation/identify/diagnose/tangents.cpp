@@ -39,7 +39,7 @@ Remaining without_stage(const Sum& all, const Prior& known, Eigen::Index count) 
   Remaining left{all.H.bottomRightCorner(rest, rest), all.g.tail(rest)};
   if (count > 0) {
     Eigen::MatrixXd own = all.H.topLeftCorner(count, count);
-    own.diagonal() += known.H.head(count);
+    own += known.H.topLeftCorner(count, count);
     own.diagonal().array() += 1e-9 * own.diagonal().maxCoeff();
     const Eigen::LDLT<Eigen::MatrixXd> first(own);
     const Eigen::MatrixXd cross = all.H.bottomLeftCorner(rest, count);

@@ -198,6 +198,7 @@ Fit fit(const model::Model& model, const Data& data, std::vector<FreeParameter> 
   result.before.test = test_error(model, data);
   result.after.test = test_error(last_model, data);
   result.parameters = judge(parameters, numbers, options);
+  result.together = correlations_of(parameters, numbers.after, numbers.precision);
   result.windows = static_cast<int>(data.windows_of(Role::train).size());
   result.iterations = near.iterations + last.iterations;
   result.converged = last.converged;

@@ -41,7 +41,8 @@ struct FittedParameter {
 struct Fit {
   Scores before, after;
   std::vector<FittedParameter> parameters;
-  int windows = 0;  ///< train windows
+  model::Correlations together{};  ///< how their deviations hang together
+  int windows = 0;                 ///< train windows
   int iterations = 0;
   bool converged = false;
   bool whole = false;  ///< of fit_whole: `windows` are recordings, `iterations` generations

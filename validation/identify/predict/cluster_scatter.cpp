@@ -47,10 +47,10 @@ double freedom_of(const Eigen::MatrixXd& b, const Eigen::MatrixXd& d) {
 
 }  // namespace
 
-Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::VectorXd& known,
+Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::MatrixXd& known,
                         const Eigen::MatrixXd& others) {
-  const Eigen::Index n = known.size();
-  Eigen::MatrixXd H = known.asDiagonal();
+  const Eigen::Index n = known.rows();
+  Eigen::MatrixXd H = known;
   for (const Reduced& window : windows) {
     H += window.H;
   }
@@ -63,8 +63,7 @@ Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::Vector
     const Eigen::VectorXd a = W.transpose() * (roots.back() * (W * window.g));
     seen += a * a.transpose();
   }
-  Eigen::MatrixXd assumed = others;
-  assumed.diagonal() += known;
+  const Eigen::MatrixXd assumed = others + known;
   Scatter scatter;
   scatter.inverse = W.transpose() * W;
   scatter.covariance = seen + W.transpose() * (W * assumed * W.transpose()) * W;
@@ -79,8 +78,8 @@ Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::Vector
       d.row(w) = (S[i] * b.row(w).transpose()).transpose();
     }
     // What is assumed has no scatter of its own.
-    const double told = H(p, p) - known[p];
-    const double unscattered = told > known[p] ? 0.0 : std::numeric_limits<double>::infinity();
+    const double told = H(p, p) - known(p, p);
+    const double unscattered = told > known(p, p) ? 0.0 : std::numeric_limits<double>::infinity();
     scatter.freedom[p] = seen(p, p) > 0.0
                              ? freedom_of(b, d) * std::pow(scatter.covariance(p, p) / seen(p, p), 2)
                              : unscattered;

@@ -14,7 +14,7 @@ struct Scatter {
   Eigen::VectorXd freedom;  ///< degrees of freedom behind each diagonal entry of `covariance`
 };
 
-/// Covariance of the estimate H^-1 sum J'y with H = sum J'J + diag(known) (J with the initial state projected
+/// Covariance of the estimate H^-1 sum J'y with H = sum J'J + known (J with the initial state projected
 /// out), whose windows' residuals may be correlated in themselves but not with each other's:
 ///   H^-1 (sum a a' + known + others) H^-1,  a = L (1 - L^-1 H_w L^-T)^(-1/2) L^-1 g_w,  H = L L'
 /// The square root makes up for what the fit has taken off each window's residuals: little where a window
@@ -25,7 +25,7 @@ struct Scatter {
 /// standard errors for linear regression with multi-stage samples, Survey Methodology 28 (2002) 169-181 (CR2
 /// and its degrees of freedom); Satterthwaite, Biometrics Bulletin 2 (1946) 110-114, for the sum with what is
 /// known.
-Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::VectorXd& known,
+Scatter cluster_scatter(const std::vector<Reduced>& windows, const Eigen::MatrixXd& known,
                         const Eigen::MatrixXd& others);
 
 }  // namespace plumbline::validation

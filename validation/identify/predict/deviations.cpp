@@ -52,9 +52,9 @@ double mean_square(const Data& data, const std::vector<int>& windows, const std:
 /// scatter's covariance C; what is known of the parameters keeps its weight. Without it a parameter that the
 /// windows hardly tell would seem to be open far beyond what is stated of it, because each of them pulls at
 /// it with all that the model lacks.
-Eigen::VectorXd tempered_variances(const std::vector<Reduced>& reduced, const Eigen::VectorXd& known,
+Eigen::VectorXd tempered_variances(const std::vector<Reduced>& reduced, const Eigen::MatrixXd& known,
                                    const Scatter& scatter) {
-  const Eigen::Index n = known.size();
+  const Eigen::Index n = known.rows();
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
   for (const Reduced& one : reduced) {
     H += one.H;
@@ -62,7 +62,7 @@ Eigen::VectorXd tempered_variances(const std::vector<Reduced>& reduced, const Ei
   const double f =
       std::max(1.0, (H * scatter.covariance).trace() / static_cast<double>(std::max<Eigen::Index>(n, 1)));
   H /= f;
-  H.diagonal() += known;
+  H += known;
   return H.ldlt().solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
 }
 
@@ -74,8 +74,8 @@ Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
   const std::vector<Reduced> reduced = reduce(pool, windows, parameters, estimate.theta, estimate.x0, units);
   const auto n = static_cast<Eigen::Index>(parameters.size());
-  const Eigen::VectorXd known =
-      prior(parameters, units, estimate.theta).H + Eigen::VectorXd::Constant(n, kPriorPrecision);
+  Eigen::MatrixXd known = prior(parameters, units, estimate.theta).H;
+  known.diagonal().array() += kPriorPrecision;
   const Scatter scatter = cluster_scatter(reduced, known, constant_readings(data, windows, reduced, n));
   const double white = mean_square(data, windows, reduced);
   constexpr double kFar = 9.0;  // mean square, from which more is missing than noise
@@ -95,6 +95,34 @@ Precision precision_of(PredictorPool& pool, const std::vector<int>& windows,
   const Eigen::VectorXd scale = scatter.inverse.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   precision.correlation = scale.asDiagonal() * scatter.inverse * scale.asDiagonal();
   return precision;
+}
+
+model::Correlations correlations_of(const std::vector<FreeParameter>& parameters,
+                                    const Eigen::VectorXd& theta, const Precision& precision) {
+  const Eigen::MatrixXd& correlation = precision.correlation;
+  model::Correlations together;
+  if (correlation.rows() != static_cast<Eigen::Index>(parameters.size())) {
+    return together;
+  }
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto p = static_cast<Eigen::Index>(i);
+    const auto alike = std::count_if(parameters.begin(), parameters.end(), [&](const FreeParameter& other) {
+      return other.label == parameters[i].label;
+    });
+    if (alike == 1 && correlation(p, p) > 0.5) {
+      together.of.push_back(parameters[i].label);
+      kept.push_back(p);
+    }
+  }
+  // What is searched along its reciprocal falls where the search rises.
+  Eigen::VectorXd sign(theta.size());
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    sign[p] = search_slope(parameters[static_cast<std::size_t>(p)].scale, theta[p]) < 0.0 ? -1.0 : 1.0;
+  }
+  const Eigen::MatrixXd signed_correlation = sign.asDiagonal() * correlation * sign.asDiagonal();
+  together.matrix = signed_correlation(kept, kept);
+  return together;
 }
 
 }  // namespace plumbline::validation

@@ -301,20 +301,45 @@ Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, cons
   return slopes;
 }
 
-Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
-            const Eigen::VectorXd& theta) {
-  Prior all{0.0, Eigen::VectorXd::Zero(units.size()), Eigen::VectorXd::Zero(units.size())};
-  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
-  for (Eigen::Index p = 0; p < units.size(); ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+Eigen::MatrixXd known_correlation(const std::vector<FreeParameter>& parameters) {
+  std::vector<std::string> labels;
+  std::shared_ptr<const model::Correlations> together;
+  for (const FreeParameter& parameter : parameters) {
     if (std::isfinite(parameter.deviation)) {
-      const double off = (theta[p] - parameter.mean) / parameter.deviation;
-      const double slope = slopes[p] / parameter.deviation;
-      all.square += off * off;
-      all.g[p] = -off * slope;
-      all.H[p] = slope * slope;
+      labels.push_back(parameter.label);
+      together = parameter.together ? parameter.together : together;
     }
   }
+  return (together ? *together : model::Correlations{}).among(labels);
+}
+
+Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
+            const Eigen::VectorXd& theta) {
+  const Eigen::VectorXd slopes = search_slopes(parameters, units, theta);
+  std::vector<Eigen::Index> known;
+  for (Eigen::Index p = 0; p < units.size(); ++p) {
+    if (std::isfinite(parameters[static_cast<std::size_t>(p)].deviation)) {
+      known.push_back(p);
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(known.size());
+  Eigen::VectorXd off(count);
+  Eigen::VectorXd slope(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Index p = known[static_cast<std::size_t>(k)];
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    off[k] = (theta[p] - parameter.mean) / parameter.deviation;
+    slope[k] = slopes[p] / parameter.deviation;
+  }
+  const Eigen::MatrixXd information =
+      known_correlation(parameters).llt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::VectorXd pull = information * off;
+  Prior all{0.0, Eigen::VectorXd::Zero(units.size()), Eigen::MatrixXd::Zero(units.size(), units.size())};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    all.square += off[k] * pull[k];
+  }
+  all.g(known) = -slope.cwiseProduct(pull);
+  all.H(known, known) = slope.asDiagonal() * information * slope.asDiagonal();
   return all;
 }
 

@@ -112,15 +112,20 @@ Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const
 Eigen::VectorXd search_slopes(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
                               const Eigen::VectorXd& theta);
 
-/// What is known of the parameters beforehand, as further squared residuals ((theta - mean) / deviation)^2 in
-/// the same search coordinates: their sum, and what they add to g and to the diagonal of H. The data's own
-/// residuals are in units of the floor, so that the sum of both is minus twice a log posterior.
+/// What is known of the parameters beforehand, d' C^-1 d with d = (theta - mean) / deviation and C how these
+/// hang together (FreeParameter::together): its value, and what it adds to g and H in the same search
+/// coordinates. The data's own residuals are in units of the floor, so that the sum of both is minus twice a
+/// log posterior.
 struct Prior {
   double square = 0.0;
-  Eigen::VectorXd g, H;
+  Eigen::VectorXd g;
+  Eigen::MatrixXd H;
 };
 Prior prior(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& units,
             const Eigen::VectorXd& theta);
+
+/// C of those of which something is known, in their order.
+Eigen::MatrixXd known_correlation(const std::vector<FreeParameter>& parameters);
 
 /// Room that each parameter has within its bounds, in search units from theta.
 struct Room {

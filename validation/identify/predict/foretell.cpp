@@ -9,7 +9,7 @@ namespace plumbline::validation {
 namespace {
 
 double prior_cost(const Prior& known, const Eigen::VectorXd& d) {
-  return -2.0 * known.g.dot(d) + d.dot(known.H.cwiseProduct(d));
+  return -2.0 * known.g.dot(d) + d.dot(known.H * d);
 }
 
 /// Room within the bounds as far as a linearisation is trusted.
@@ -59,7 +59,7 @@ Sum sum_of(const std::vector<Reduced>& reduced, const std::vector<int>& windows,
 
 Foretold foretell(const Sum& train, const Sum& held_out, const Prior& known, const Room& bounds) {
   Eigen::MatrixXd H = train.H;
-  H.diagonal() += known.H;
+  H += known.H;
   const Eigen::VectorXd g = train.g + known.g;
   Foretold result;
   result.train_step = box_least_squares(H, g, bounds.lower, bounds.upper);

@@ -51,7 +51,7 @@ struct Equations {
 };
 
 Equations add_up(const Data& data, const std::vector<Reduced>& reduced, const Prior& known) {
-  Equations sum{known.H.asDiagonal(), known.g, 0.0, 0.0};
+  Equations sum{known.H, known.g, 0.0, 0.0};
   for (std::size_t w = 0; w < reduced.size(); ++w) {
     sum.raw += reduced[w].raw_sse;
     sum.left += reduced[w].sse;

@@ -47,6 +47,7 @@ void add_parameters(const std::vector<FreeParameter>& parameters, ResultKey& key
       add_id(id, key.numbers);
     }
   }
+  key.numbers.add(Eigen::VectorXd(known_correlation(parameters).reshaped()));
 }
 
 Record kept(const Data& data, const ResultKey& key, const std::function<Record()>& compute) {

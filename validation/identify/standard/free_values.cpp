@@ -1,8 +1,10 @@
 #include "validation/identify/standard/free_values.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "simulator/effects/parameters.h"
 #include "simulator/model/known_effects.h"
@@ -209,20 +211,59 @@ FreeModel free_values(const model::Model& model, const std::map<std::string, Mot
   return Freeing(model, scales).result(freed);
 }
 
-FreeParameter as_parameter(const FreeValue& value, double scale) {
-  FreeParameter parameter;
-  parameter.id = value.id;
-  parameter.label = value.label;
-  parameter.unit = value.unit;
-  parameter.lower = value.lower;
-  parameter.upper = value.upper;
-  parameter.typical = value.spread;
-  parameter.physical = value.physical;
-  if (value.known) {
-    parameter.mean = value.stated;
-    parameter.deviation = value.spread / scale;
+std::vector<FreeParameter> as_parameters(const FreeModel& free, double scale) {
+  const auto together = std::make_shared<const model::Correlations>(free.model.correlations);
+  std::vector<FreeParameter> parameters;
+  for (const FreeValue& value : free.values) {
+    FreeParameter parameter;
+    parameter.id = value.id;
+    parameter.label = value.label;
+    parameter.unit = value.unit;
+    parameter.lower = value.lower;
+    parameter.upper = value.upper;
+    parameter.typical = value.spread;
+    parameter.physical = value.physical;
+    parameter.together = together;
+    if (value.known) {
+      parameter.mean = value.stated;
+      parameter.deviation = value.spread / scale;
+    }
+    parameters.push_back(std::move(parameter));
   }
-  return parameter;
+  return parameters;
+}
+
+Eigen::MatrixXd stated_information(const FreeModel& free) {
+  std::vector<std::string> labels;
+  std::vector<Eigen::Index> known;
+  for (std::size_t i = 0; i < free.values.size(); ++i) {
+    if (free.values[i].known) {
+      labels.push_back(free.values[i].label);
+      known.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  const auto all = static_cast<Eigen::Index>(free.values.size());
+  const auto count = static_cast<Eigen::Index>(known.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
+  const Eigen::MatrixXd inverse =
+      free.model.correlations.among(labels).llt().solve(Eigen::MatrixXd::Identity(count, count));
+  information(known, known) = inverse;
+  return information;
+}
+
+double stated_misfit(const FreeModel& free) {
+  const Eigen::MatrixXd information = stated_information(free);
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(information.rows());
+  for (std::size_t i = 0; i < free.values.size(); ++i) {
+    const FreeValue& value = free.values[i];
+    off[static_cast<Eigen::Index>(i)] = value.known ? (value.value - value.stated) / value.spread : 0.0;
+  }
+  const Eigen::VectorXd pull = information * off;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < off.size(); ++i) {
+    sum += off[i] * pull[i];
+  }
+  return sum;
 }
 
 void set_value(model::Model& model, const model::ParameterId& id, double value) {

@@ -2,6 +2,7 @@
 // limits.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ struct FreeModel {
   model::Model model;
   std::size_t own = 0;  ///< effects that it had before; the added ones are behind them, at their null values
   std::vector<FreeValue> values;
+  Eigen::MatrixXd correlation{};  ///< of the identified values; empty: not known
 };
 
 /// Free are, where the model has such an effect its own value, else that of one more at the place:
@@ -71,9 +73,16 @@ struct FreeModel {
 FreeModel free_values(const model::Model& model, const std::map<std::string, MotorScales>& scales,
                       Freed freed = Freed::all);
 
-/// A value as a parameter of a fit to windows, what is known of it weighed against residuals `scale` times as
-/// large as the floors.
-FreeParameter as_parameter(const FreeValue& value, double scale = 1.0);
+/// The values as parameters of a fit to windows, what is known of them weighed against residuals `scale`
+/// times as large as the floors.
+std::vector<FreeParameter> as_parameters(const FreeModel& free, double scale = 1.0);
+
+/// What is stated of the values: with d = (value - stated) / spread of those that are known, and C how these
+/// hang together (Model::correlations), the information C^-1 in the rows and columns of all values, zero for
+/// those of which nothing is known.
+Eigen::MatrixXd stated_information(const FreeModel& free);
+/// d' C^-1 d: how far the values are from what is stated.
+double stated_misfit(const FreeModel& free);
 
 /// The model with other values.
 model::Model identified(const FreeModel& free);

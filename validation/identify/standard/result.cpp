@@ -97,7 +97,12 @@ void save(const StandardFit& fit, const Data& data, const std::string& file) {
       values.push_back({value.label, value.value, value.deviation, value.unit, source});
     }
   }
-  model::write_overlay(file, found.file, added, values, source, model::known_effects());
+  model::Correlations together{{}, fit.free.correlation};
+  for (const FreeValue& value : fit.free.values) {
+    together.of.push_back(value.label);
+  }
+  model::write_overlay(file, found.file, added, values, source, model::known_effects(),
+                       together.matrix.size() > 0 ? together : model::Correlations{});
 }
 
 }  // namespace plumbline::validation

@@ -28,15 +28,6 @@ std::map<std::string, MotorScales> scales_of(PredictorPool& pool, const Estimate
   return scales;
 }
 
-/// What is stated, weighed against residuals `scale` times as large as the floors.
-std::vector<FreeParameter> parameters_of(const FreeModel& free, double scale) {
-  std::vector<FreeParameter> parameters;
-  for (const FreeValue& value : free.values) {
-    parameters.push_back(as_parameter(value, scale));
-  }
-  return parameters;
-}
-
 Eigen::VectorXd values_from(const FreeModel& free, const FreeModel* other) {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(free.values.size()));
   for (std::size_t i = 0; i < free.values.size(); ++i) {
@@ -60,7 +51,7 @@ void search(PredictorPool& pool, const FreeModel& free, const EstimateOptions& o
   constexpr double kMuch = 0.7;  // the scale that is left, as a share of the one that was searched with
   for (int i = 0; i < kScales; ++i) {
     const double scale = scale_of(stage.estimate);
-    stage.parameters = parameters_of(free, scale);
+    stage.parameters = as_parameters(free, scale);
     stage.estimate = gauss_newton(pool, stage.parameters, stage.estimate.theta, stage.estimate.x0, options);
     if (scale_of(stage.estimate) > kMuch * scale) {
       return;
@@ -75,7 +66,7 @@ void take_better_start(const FreeModel& free, const FreeModel* torques, const Da
     return;
   }
   const Eigen::VectorXd theta = values_from(free, torques);
-  PredictorPool pool(with_values(free.model, parameters_of(free, 1.0), theta), data);
+  PredictorPool pool(with_values(free.model, as_parameters(free, 1.0), theta), data);
   try {
     Estimate other = estimate_states(pool, stage.estimate.x0);
     if (other.scores.train < stage.estimate.scores.train) {
@@ -210,12 +201,13 @@ WindowsFit as_windows_fit(const FreeModel& torques, const Scores& scores) {
   WindowsFit fit;
   fit.scores = scores;
   fit.values = static_cast<int>(torques.values.size());
-  fit.stage.parameters = parameters_of(torques, 1.0);
+  fit.stage.parameters = as_parameters(torques, 1.0);
   const Eigen::VectorXd theta = values_from(torques, nullptr);
   fit.precision.deviations.resize(theta.size());
   for (std::size_t i = 0; i < torques.values.size(); ++i) {
     fit.precision.deviations[static_cast<Eigen::Index>(i)] = torques.values[i].deviation;
   }
+  fit.precision.correlation = torques.correlation;
   fit.at_limits = at_limits(torques, theta);
   fit.stage.model = torques.model;
   fit.stage.estimate.theta = theta;

@@ -149,21 +149,24 @@ struct Weighted {
   Eigen::VectorXd g, lower, upper;
 };
 
-Weighted weighted(const ByMotor& equations, const std::vector<FreeValue>& values, double independent,
+Weighted weighted(const ByMotor& equations, const FreeModel& free, double independent,
                   const Eigen::VectorXd& step, const std::map<int, double>& least) {
+  const std::vector<FreeValue>& values = free.values;
   const auto count = static_cast<Eigen::Index>(values.size());
-  Weighted all{Eigen::MatrixXd::Identity(count, count), Eigen::VectorXd::Zero(count), Eigen::VectorXd(count),
+  Weighted all{stated_information(free), Eigen::VectorXd::Zero(count), Eigen::VectorXd(count),
                Eigen::VectorXd(count)};
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const FreeValue& value = values[static_cast<std::size_t>(i)];
     if (value.known) {
-      all.g[i] = (value.stated - value.value) / value.spread;
+      off[i] = (value.stated - value.value) / value.spread;
     } else {
       all.H(i, i) = kUnknown;
     }
     all.lower[i] = value.seen ? std::min(0.0, (value.lower - value.value) / value.spread) : 0.0;
     all.upper[i] = value.seen ? std::max(0.0, (value.upper - value.value) / value.spread) : 0.0;
   }
+  all.g = all.H * off;
   for (const auto& [motor, sum] : equations) {
     const double error = std::max(sum.rms(step), least.at(motor));
     all.H += independent / (error * error) * sum.H;
@@ -172,12 +175,14 @@ Weighted weighted(const ByMotor& equations, const std::vector<FreeValue>& values
   return all;
 }
 
-void take(const BoundedMinimum& minimum, const Weighted& all, std::vector<FreeValue>& values) {
+void take(const BoundedMinimum& minimum, const Weighted& all, FreeModel& free) {
+  std::vector<FreeValue>& values = free.values;
   const Eigen::MatrixXd covariance =
       free_part(all.H, minimum.held)
           .ldlt()
           .solve(Eigen::MatrixXd::Identity(std::count(minimum.held.begin(), minimum.held.end(), false),
                                            std::count(minimum.held.begin(), minimum.held.end(), false)));
+  std::vector<Eigen::Index> found;
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     FreeValue& value = values[i];
@@ -187,9 +192,14 @@ void take(const BoundedMinimum& minimum, const Weighted& all, std::vector<FreeVa
     value.deviation = value.spread;
     if (!minimum.held[i]) {
       value.deviation = value.spread * std::sqrt(covariance(next, next));
+      found.push_back(static_cast<Eigen::Index>(i));
       ++next;
     }
   }
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const auto count = static_cast<Eigen::Index>(values.size());
+  free.correlation = Eigen::MatrixXd::Identity(count, count);
+  free.correlation(found, found) = scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
 /// Below a small share of the torque no error is held for noise.
@@ -293,11 +303,7 @@ double TorqueProblem::cost(const FreeModel& free) const {
   } catch (const InputError&) {  // a mass matrix without inertia somewhere: no physical values
     return std::numeric_limits<double>::infinity();
   }
-  for (const FreeValue& value : free.values) {
-    const double moved = value.known ? (value.value - value.stated) / value.spread : 0.0;
-    sum += moved * moved;
-  }
-  return sum;
+  return sum + stated_misfit(free);
 }
 
 TorqueSlopes TorqueProblem::slopes(const FreeModel& free, std::size_t first,
@@ -319,10 +325,10 @@ FreeModel TorqueProblem::aimed(FreeModel free, const TorqueErrors& errors, const
   Weighted normal;
   BoundedMinimum minimum{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.values.size())), {}};
   for (int i = 0; i < kWeightings; ++i) {
-    normal = weighted(equations, free.values, share_, minimum.at, least_);
+    normal = weighted(equations, free, share_, minimum.at, least_);
     minimum = bounded_minimum(normal.H, normal.g, normal.lower, normal.upper);
   }
-  take(minimum, normal, free.values);
+  take(minimum, normal, free);
   return free;
 }
 

@@ -51,16 +51,6 @@ double log_error_of(const TorqueBlocks& blocks) {
   return motors > 0.0 ? sum / motors : 0.0;
 }
 
-/// How far the model's own numbers are from what is stated, squares of deviations.
-double prior_misfit(const FreeModel& free) {
-  double sum = 0.0;
-  for (const FreeValue& value : free.values) {
-    const double moved = value.known ? (value.value - value.stated) / value.spread : 0.0;
-    sum += moved * moved;
-  }
-  return sum;
-}
-
 struct Judgement {
   TorqueBlocks blocks;     ///< of all trials
   double log_error = 0.0;  ///< of those that count
@@ -81,7 +71,7 @@ class Judge {
     const model::Model model = identified(free);
     Judgement one;
     one.blocks = train_.blocks(model, length_);
-    one.penalty = prior_misfit(free) + static_cast<double>(further) * std::log(train_.independent_samples());
+    one.penalty = stated_misfit(free) + static_cast<double>(further) * std::log(train_.independent_samples());
     one.log_error = log_error_of(one.blocks);
     if (!held_out_.empty()) {
       const TorqueBlocks unseen = held_out_.front().blocks(model, length_);

@@ -34,7 +34,7 @@ IdentifiedValue finding_of(const LinkedParameter& linked, const FittedParameter&
 Eigen::MatrixXd free_information(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                                  const Estimate& estimate, Eigen::Index free) {
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
-  Eigen::MatrixXd H = prior(parameters, units, estimate.theta).H.asDiagonal();
+  Eigen::MatrixXd H = prior(parameters, units, estimate.theta).H;
   for (const Reduced& one :
        reduce(pool, pool.data().windows_of(Role::train), parameters, estimate.theta, estimate.x0, units)) {
     H += one.H;
