@@ -1,68 +1,23 @@
 // A model ready to be integrated: skeleton, drivetrain and effects as one first-order system.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "contact/terrain.h"
-#include "simulator/model/contact_laws.h"
 #include "simulator/model/link_contacts.h"
 #include "simulator/model/loop_closure.h"
-#include "simulator/model/mechanism.h"
 #include "simulator/model/model.h"
-#include "simulator/model/tree_slopes.h"
+#include "simulator/model/plant_values.h"
+#include "simulator/model/tree_dynamics.h"
 
 namespace plumbline::model {
 
-/// A parameter of one of the model's effects.
-struct ParameterId {
-  int effect = 0;     ///< index in Model::effects
-  int parameter = 0;  ///< index in the law's declaration
-};
-
-/// Motion over a short time in which commands are held.
-struct SampleMotion {
-  const double* middle;         ///< mean of the states at both ends
-  const double* change;         ///< state at the end less state at the start
-  const double* command;        ///< of each motor, mean over the sample
-  const double* command_slope;  ///< d(command)/d(delay) of each motor, 1/s
-  double period;                ///< s
-  double hold = 0.0;            ///< s for which a command holds, where that is longer; 0: the period
-  bool jumped = false;          ///< a force jumped where it begins
-};
-
-/// A foot and the ground under it, in the world's axes.
-struct Touch {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
-  double depth = 0.0;                                  ///< in the ground when above 0, m
-  /// Of its link (the frame's y) along the ground; of a robot that floats, where friction is alike in all
-  /// directions, of the world: a link that tumbles has no left.
-  Eigen::Vector2d left = Eigen::Vector2d::UnitY();
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the ground on the foot, N
-};
-
-/// How deep a foot is in the ground (under 0: above it), m, and its rate, m/s.
-struct FootDepth {
-  double depth = 0.0;
-  double rate = 0.0;
-};
-
-/// Energy of a state and where power goes.
-struct Energetics {
-  double stored = 0.0;      ///< kinetic, gravity and springs, J
-  double input = 0.0;       ///< power of the motors' delivered torques, W
-  double dissipated = 0.0;  ///< by all effects, W
-};
-
-/// What moves a state fastest.
-struct Stiffest {
-  std::string element;  ///< "hard_stop at bsp_left"; empty when no effect moves anything
-  double rate = 0.0;    ///< 1/s
-};
+class PlantDynamics;
+class PlantReadings;
+class PlantTangent;
 
 /// The state is x = [z, dz/dt, hidden states], z the independent positions that the rigid ratios and locks
 /// leave: q = S z + q0 for the full coordinates q (joints, motors, pulleys). Ratios are linear with constant
@@ -78,13 +33,16 @@ class Plant {
   /// Throws InputError when constraints contradict each other or the mass matrix is singular.
   /// The same for loops (LoopClosure).
   Plant(const Model& model, const std::vector<Lock>& locks, contact::Terrain terrain = {});
+  ~Plant();
+  Plant(Plant&&) noexcept;
+  Plant& operator=(Plant&&) noexcept;
 
-  const Model& model() const { return model_; }
-  const contact::Terrain& terrain() const { return terrain_; }
-  int positions() const { return nz_; }
-  int states() const { return nx_; }
-  int motors() const { return static_cast<int>(model_.motors.size()); }
-  int sensors() const { return static_cast<int>(model_.sensors.size()); }
+  const Model& model() const;
+  const contact::Terrain& terrain() const;
+  int positions() const;
+  int states() const;
+  int motors() const;
+  int sensors() const;
   /// "position of mLA_left", "velocity of ..." (joint, motor or pulley), "bristle of lugre at mLS".
   std::vector<std::string> state_names() const;
   /// Indices in x of the hidden states that the past determines: those of force laws (bristles), which follow
@@ -98,9 +56,9 @@ class Plant {
   void rate(const double* x, const double* command, double* xdot);
 
   /// Are there closed loops, so that not every x is a state of the model?
-  bool has_loops() const { return closure_ != nullptr; }
+  bool has_loops() const;
   /// What closes them; null where there are none.
-  LoopClosure* closure() { return closure_.get(); }
+  LoopClosure* closure();
   /// Another one, for whoever outlives this plant or holds it const.
   std::unique_ptr<LoopClosure> own_closure() const;
   /// A position in which the loops are closed; without loops zero.
@@ -122,30 +80,30 @@ class Plant {
   void outputs(const double* x, double* y, const double* command = nullptr);
   /// d(what a sensor truly sees)/dz, of a rate sensor /d(dz/dt), sensors x positions; the rows of force
   /// plates and of what is measured at points of links are zero.
-  const Eigen::MatrixXd& output_map() const { return output_map_; }
+  const Eigen::MatrixXd& output_map() const;
   /// True position of each sensor at z = 0.
-  const Eigen::VectorXd& output_offset() const { return output_offset_; }
+  const Eigen::VectorXd& output_offset() const;
   /// Rows that are zero when no released ratio is stretched (for an unobserved start).
-  const Eigen::MatrixXd& stretch_map() const { return stretch_map_; }
+  const Eigen::MatrixXd& stretch_map() const;
 
   /// The tree of links, at the positions and velocities evaluated last; the index of a sensor's link in it;
   /// and the joints' positions S z + q0 that it is placed by: S.
-  const TreeDynamics& tree() const { return structure_.mechanism->tree(); }
+  const TreeDynamics& tree() const;
   int tree_body_of_sensor(int sensor) const;
-  const Eigen::MatrixXd& joint_map() const { return S_tree_; }
+  const Eigen::MatrixXd& joint_map() const;
 
   /// The model's feet, in its order; one that no ground law holds reads zeros.
   std::vector<Touch> touches(const double* x);
   /// Does any foot have a ground that presses?
-  bool meets_ground() const { return !feet_.empty(); }
+  bool meets_ground() const;
   /// Points at which links of the model may meet each other: those of its contacts that have a law.
-  int link_points() const { return links_ == nullptr ? 0 : links_->points(); }
+  int link_points() const;
   /// Of all of them.
   std::vector<LinkTouch> link_touches(const double* x);
   /// On the first link of each of the model's contacts, in the world's axes, N.
   std::vector<Eigen::Vector3d> contact_forces(const double* x);
   /// Does anything press on the links that begins where they meet something?
-  bool meets_anything() const { return meets_ground() || links_ != nullptr; }
+  bool meets_anything() const;
   /// Of one of the model's feet that has a ground; far above the ground where it has none.
   FootDepth foot_depth(int foot, const double* x);
   /// d(depth)/dz on level ground, 1 x positions; and d(depth)/d(parameters), 1 x parameters.
@@ -174,13 +132,10 @@ class Plant {
   void carry_states(const double* from, const double* to, const double* command, double h, double* x) const;
 
   /// Switching functions of all force laws.
-  int switch_count() const { return switch_count_; }
+  int switch_count() const;
   void switches(const double* x, double* g);
   /// Which of them are zero where a force jumps (ForceLaw::jumps), and whose effect that is.
-  struct Jump {
-    int index = 0;   ///< switching function
-    int effect = 0;  ///< of the model
-  };
+  using Jump = ForceJump;
   std::vector<Jump> jumps() const;
 
   Energetics energetics(const double* x, const double* command);
@@ -201,7 +156,7 @@ class Plant {
   /// v_i = sqrt(w' M w / M_ii), w = dz/dt.
   void raise_speeds(const double* x, double* speeds);
   /// Of the independent coordinates, at the position that rate() was last called with.
-  const Eigen::MatrixXd& mass_matrix() const { return M_; }
+  const Eigen::MatrixXd& mass_matrix() const;
   /// Generalised inertia felt along a named place at the last evaluated position.
   double inertia_of(const std::string& name);
 
@@ -238,207 +193,9 @@ class Plant {
   Stiffest stiffest(const double* x, const double* command);
 
  private:
-  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;  // a law's states: no heap in a hot loop
-  struct Entry {
-    int index;
-    double value;
-  };
-  // A linear functional of the full coordinates, seen from the independent ones.
-  struct Line {
-    Eigen::VectorXd full;
-    Eigen::VectorXd reduced;
-    double offset = 0.0;
-    std::vector<Entry> entries;  // of `reduced`, those that are not zero: few
-  };
-  struct ForceSlot {
-    const effects::ForceLaw* law = nullptr;
-    int effect = 0;
-    int state = -1;         // index in x of its first hidden state
-    int motor = -1;         // motor whose torque is the load
-    bool at_motor = false;  // acts on that motor itself, not on its gear
-    bool active = true;     // false at null values: costs nothing
-    Line line;
-  };
-  struct Reach {
-    double up = 0.0, down = 0.0;
-  };
-  struct FootSlot : ContactLaws {
-    int foot = 0;             // index in the model
-    int body = -1;            // in the mechanism's tree
-    bool keeps_axes = false;  // its bristles lie in the world's axes, not in those of its link
-  };
-  struct ActuatorSlot {
-    const effects::ActuatorLaw* law = nullptr;
-    int effect = 0;
-    int state = -1;
-  };
-  struct StructureSlot {
-    const effects::StructureLaw* law = nullptr;
-    int effect = 0;
-  };
-  struct SensorSlot {
-    const effects::SensorLaw* law = nullptr;
-    int effect = 0;
-  };
-  struct SwitchSlot {
-    const effects::SwitchLaw* law = nullptr;
-    int effect = 0;
-  };
-  struct PointSlot {
-    int sensor = 0;  // index in the model
-    int body = -1;   // in the mechanism's tree
-  };
-  struct Structure {
-    std::unique_ptr<Mechanism> mechanism;
-    Eigen::VectorXd extra_inertia;  // on all full coordinates, diagonal
-    Eigen::MatrixXd extra_reduced;  // S' (diag + pulleys) S
-  };
-  /// Perturbed by one structural parameter.
-  struct Variant {
-    ParameterId id;
-    double step = 0.0;
-    Structure structure;
-    std::vector<int> heavier;  // bodies of the tree whose mass, centre of mass or inertia is another
-    Eigen::MatrixXd dM;        // by differences, only where gravity is another
-    Eigen::VectorXd dh;
-  };
-
-  Eigen::VectorXd full_direction(const std::string& name) const;
-  Eigen::VectorXd stretch_direction(const Ratio& ratio) const;
-  Line line_of(const Eigen::VectorXd& full) const;
-  bool is_released(const Ratio& ratio) const;
-  void check_charts() const;
-  void reduce(const std::vector<Lock>& locks);
-  void place_effects();
-  void place_force(const effects::ForceLaw& law, int effect, int& next_state);
-  void place_sensors();
-  void place_ground(int& next_state);
-  void place_links(int& next_state);
-  void add_links(const double* x, Eigen::VectorXd& Q, double* xdot);
-  void link_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
-  void link_parameter_tangent(const double* x, ParameterId id, double step, effects::Values moved,
-                              Eigen::Ref<Eigen::VectorXd> column);
-  void link_energetics(const double* x, Energetics& e) const;
-  void find_feet();
-  void change_ground();
-  Eigen::Vector3d below(const FootSlot& slot) const;
-  const FootSlot* slot_of(int foot) const;
-  void ground_parameter_tangent(const FootSlot& slot, const double* x, ParameterId id, double step,
-                                effects::Values moved, Eigen::Ref<Eigen::VectorXd> column);
-  Touch touch(const FootSlot& slot) const;
-  void press(const FootSlot& slot, const double* x, Touch& touch, double* xdot) const;
-  void add_ground(const double* x, Eigen::VectorXd& Q, double* xdot);
-  const Eigen::MatrixXd& foot_jacobian(const FootSlot& slot, const Touch& at);
-  void ground_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
-  void foot_tangent(const FootSlot& slot, const Touch& at, const Touch& half, double* x,
-                    Eigen::Ref<Eigen::MatrixXd> A);
-  void find_turning(const FootSlot& slot, const Touch& at);
-  void leverage_tangent(const FootSlot& slot, const Touch& at, const double* x);
-  void bristle_tangent(const FootSlot& slot, const Touch& at, double* x, Eigen::Ref<Eigen::MatrixXd> A);
-  void ground_energetics(const double* x, Energetics& e) const;
-  void plate_outputs(const double* x, double* y);
-  void place_point_sensor(int sensor);
-  void point_outputs(const double* x, const double* command, double* y);
-  void point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C);
-  void feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C);
-  Eigen::VectorXd accelerations_at(const double* x, const double* command);
-  void read_points(const double* x, const Eigen::VectorXd& acceleration, Eigen::VectorXd& readings);
-  void tilt_tangent(const double* x, const std::vector<ParameterId>& parameters, const Eigen::VectorXd& steps,
-                    Eigen::MatrixXd& D);
-  Structure make_structure() const;
-  void apply_change(const StructureSlot& slot, Skeleton& skeleton, Eigen::VectorXd& inertia) const;
-  void check_mass_matrix();
-
-  effects::Motion motion(const ForceSlot& slot, const double* x) const;
-  effects::Motion half_change(const ForceSlot& slot, const double* change) const;
-  static std::vector<bool> sides_of_jumps(const ForceSlot& slot, const effects::Motion& at, const double* p);
-  Reach reach_beside_jumps(const ForceSlot& slot, const effects::Motion& at, double most);
-  const double* values(int effect) const { return values_[static_cast<std::size_t>(effect)].data(); }
-  const double* on_ground(int effect) const { return on_ground_[static_cast<std::size_t>(effect)].data(); }
-  void deliver_torques(const double* x, const double* command, double* xdot);
-  void find_gear_loads(const double* x);
-  void evaluate_rigid(const double* x, Structure& structure, Eigen::MatrixXd& M, Eigen::VectorXd& h);
-  void make_loops();
-  Eigen::VectorXd move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
-                                   const Eigen::VectorXd& x);
-  bool planar_base_is_bent() const;
-  void hold_loops();
-  void accelerate(const Eigen::VectorXd& Q, Eigen::VectorXd& acceleration) const;
-  void accelerate_in_place(Eigen::MatrixXd& Q) const;
-  Eigen::VectorXd accelerated(const Eigen::VectorXd& Q) const;
-  void loop_tangent(const double* x, const Eigen::VectorXd& Q, const Eigen::VectorXd& a0);
-  void rigid_at(const double* x);
-  void factor_at(const double* x);
-  double spectral_radius(const double* x);
-  std::string coordinate_name(int full) const;
-  void add_forces(const double* x, Eigen::VectorXd& Q, double* xdot);
-  double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
-  void rigid_tangent();
-  void effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
-  void force_tangent(const ForceSlot& slot, const double* x, const double* change,
-                     Eigen::Ref<Eigen::MatrixXd> A);
-  void parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
-                         ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
-  void force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
-                               ParameterId id, const effects::Values& moved, double step,
-                               Eigen::Ref<Eigen::VectorXd> column);
-  void actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
-                                  const double* x, const Eigen::MatrixXd& A, effects::Values moved,
-                                  double step, Eigen::Ref<Eigen::VectorXd> column);
-  void actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);
-  Variant& variant_of(ParameterId id, double step);
-  void structure_tangent(const double* x, ParameterId id, double step, bool refresh,
-                         Eigen::Ref<Eigen::VectorXd> column);
-  void gravity_tangent(const double* x, Variant& variant, bool refresh, Eigen::Ref<Eigen::VectorXd> column);
-  void base_tangent(const SampleMotion& sample, ParameterId id, double step,
-                    Eigen::Ref<Eigen::VectorXd> column);
-  bool sits_at_base(int effect) const;
-
-  Model model_;
-  std::vector<effects::Values> values_;
-  std::vector<effects::Values> on_ground_;  // the same for the ground's laws, with its changes
-  std::vector<int> independent_;            // full coordinates that z are
-  std::vector<int> charts_;                 // full coordinates that are a chart's pitch
-  int n_tree_ = 0, n_ = 0, nz_ = 0, nx_ = 0, switch_count_ = 0;
-  bool gear_friction_ = false;     // does a law feel what a gear passes on?
-  Eigen::VectorXd motor_pulleys_;  // inertia that turns with each motor beside its rotor
-  Eigen::MatrixXd S_, S_tree_;
-  std::vector<std::vector<Entry>> S_rows_;  // of S_tree_
-  Eigen::VectorXd q0_;
-  std::vector<ForceSlot> forces_;
-  std::vector<FootSlot> feet_;
-  std::unique_ptr<LinkContacts> links_;  // null: none that has a law
-  contact::Terrain terrain_;
-  std::vector<std::vector<ActuatorSlot>> actuators_;  // by motor, in order of action
-  std::vector<StructureSlot> structures_;
-  std::vector<std::vector<SensorSlot>> sensor_effects_;
-  std::vector<SwitchSlot> switch_effects_;
-  std::vector<PointSlot> points_;
-  std::vector<Line> motor_lines_;
-  Eigen::MatrixXd output_map_, stretch_map_;
-  Eigen::VectorXd output_offset_;
-  Structure structure_;
-
-  // Work space of the last evaluation.
-  Eigen::VectorXd q_, v_, h_tree_, ground_, h_, Q_, torque_, acceleration_;
-  Eigen::VectorXd gear_load_;  // what the motors' gears pass on; only where a law feels it
-  Eigen::MatrixXd M_, M_tree_, SM_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd known_;  // positions and velocities that q_, v_, M_, h_ and the tree's kinematics belong to
-  bool rigid_known_ = false, factored_ = false;
-  Eigen::MatrixXd rigid_A_;
-  TreeSlopes tree_slopes_;
-  Eigen::MatrixXd slopes_;  // d(generalised force)/dx
-  Eigen::MatrixXd foot_J_;
-  Eigen::RowVectorXd foot_yaw_;
-  Eigen::Matrix3Xd foot_V_;  // d(foot's velocity)/dz; without columns where it is not asked for
-  Eigen::VectorXd foot_row_, moved_x_, up_, down_;
-  std::vector<double> switch_values_;
-  std::unique_ptr<LoopClosure> closure_;           // null: no loops
-  Eigen::MatrixXd loop_J_, loop_Y_, loop_tree_J_;  // dphi/dz, M^-1 J' at the position of factor_
-  Eigen::VectorXd loop_bias_;                      // (dJ/dt) w
-  Eigen::LLT<Eigen::MatrixXd> loop_factor_;        // J M^-1 J'
-  std::vector<Variant> variants_;  // perturbed structures, one for each structural parameter asked for
+  std::unique_ptr<PlantDynamics> dynamics_;
+  std::unique_ptr<PlantTangent> tangent_;
+  std::unique_ptr<PlantReadings> readings_;
 };
 
 }  // namespace plumbline::model

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "simulator/model/inertial_sensors.h"
-#include "simulator/model/plant.h"
+#include "simulator/model/plant_readings.h"
 #include "simulator/model/point_sensors.h"
 
 namespace plumbline::model {
@@ -21,41 +21,42 @@ void read_slopes(const Chains& chains, const Values& values, Eigen::MatrixXd& sl
 
 }  // namespace
 
-int Plant::tree_body_of_sensor(int sensor) const {
-  return structure_.mechanism->tree_body(model_.sensors[static_cast<std::size_t>(sensor)].body);
+int PlantReadings::tree_body_of_sensor(int sensor) const {
+  return bodies_.mechanism().tree_body(model_.sensors[static_cast<std::size_t>(sensor)].body);
 }
 
-void Plant::place_point_sensor(int sensor) {
+void PlantReadings::place_point_sensor(int sensor) {
   output_map_.row(sensor).setZero();
   output_offset_[sensor] = 0.0;
   points_.push_back({sensor, tree_body_of_sensor(sensor)});
 }
 
-Eigen::VectorXd Plant::accelerations_at(const double* x, const double* command) {
+Eigen::VectorXd PlantReadings::accelerations_at(const double* x, const double* command) {
   Eigen::VectorXd acceleration;
   if (model_.has(PointReading::accelerometer)) {
-    const std::vector<double> none(static_cast<std::size_t>(motors()), 0.0);
-    Eigen::VectorXd xdot(nx_);
-    rate(x, command != nullptr ? command : none.data(), xdot.data());
+    const std::vector<double> none(static_cast<std::size_t>(plant_.motors()), 0.0);
+    Eigen::VectorXd xdot(plant_.states());
+    plant_.rate(x, command != nullptr ? command : none.data(), xdot.data());
     acceleration = S_tree_ * xdot.segment(nz_, nz_);
   }
   return acceleration;
 }
 
 // One after the other: the three components of a sensor share what is computed for the first.
-void Plant::read_points(const double* x, const Eigen::VectorXd& acceleration, Eigen::VectorXd& readings) {
-  rigid_at(x);
+void PlantReadings::read_points(const double* x, const Eigen::VectorXd& acceleration,
+                                Eigen::VectorXd& readings) {
+  bodies_.rigid_at(x);
   Eigen::Vector3d whole = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Sensor& sensor = model_.sensors[static_cast<std::size_t>(points_[i].sensor)];
     if (i == 0 || sensor.axis == 0) {
-      whole = point_reading(tree(), points_[i].body, sensor, acceleration);
+      whole = point_reading(bodies_.tree(), points_[i].body, sensor, acceleration);
     }
     readings[static_cast<Eigen::Index>(i)] = whole[sensor.axis];
   }
 }
 
-void Plant::point_outputs(const double* x, const double* command, double* y) {
+void PlantReadings::point_outputs(const double* x, const double* command, double* y) {
   if (points_.empty()) {
     return;
   }
@@ -74,13 +75,13 @@ void Plant::point_outputs(const double* x, const double* command, double* y) {
   }
 }
 
-Eigen::MatrixXd Plant::acceleration_map(const double* x) {
+Eigen::MatrixXd PlantReadings::acceleration_map(const double* x) {
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(sensors(), nz_);
-  rigid_at(x);
+  bodies_.rigid_at(x);
   for (const PointSlot& slot : points_) {
     const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
     if (sensor.reading == PointReading::accelerometer) {
-      map.row(slot.sensor) = point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
+      map.row(slot.sensor) = point_rows(bodies_.tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
     }
   }
   read_slopes(
@@ -88,16 +89,16 @@ Eigen::MatrixXd Plant::acceleration_map(const double* x) {
   return map;
 }
 
-void Plant::point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C) {
+void PlantReadings::point_jacobian(const double* x, const double* command, Eigen::MatrixXd& C) {
   if (points_.empty()) {
     return;
   }
-  rigid_at(x);
+  bodies_.rigid_at(x);
   for (const PointSlot& slot : points_) {
     const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
     if (sensor.reading != PointReading::accelerometer) {
       C.row(slot.sensor).segment(sensor.shows_pose() ? 0 : nz_, nz_) =
-          point_rows(tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
+          point_rows(bodies_.tree(), slot.body, sensor).row(sensor.axis) * S_tree_;
     }
   }
   if (model_.has(PointReading::accelerometer) || model_.has(PointReading::gyroscope)) {
@@ -108,11 +109,11 @@ void Plant::point_jacobian(const double* x, const double* command, Eigen::Matrix
 }
 
 // Where rate() or rigid_at() has left the tree.
-void Plant::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
+void PlantReadings::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
   if (acceleration.size() == 0) {
     acceleration.setZero(n_tree_);  // gyroscopes do not ask for it
   }
-  tree_slopes_.set(tree(), acceleration);
+  tree_slopes_.set(bodies_.tree(), acceleration);
   TreeSlopes::Felt felt;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointSlot& slot = points_[i];
@@ -121,10 +122,10 @@ void Plant::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
       continue;  // point_rows() tells how the others change with positions
     }
     if (i == 0 || sensor.axis == 0) {
-      tree_slopes_.felt_at(slot.body, tree().station(slot.body, sensor.point), felt);
+      tree_slopes_.felt_at(slot.body, bodies_.tree().station(slot.body, sensor.point), felt);
     }
     const Eigen::RowVector3d along =
-        (tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).transpose();
+        (bodies_.tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).transpose();
     if (sensor.reading == PointReading::gyroscope) {
       C.row(slot.sensor).head(nz_) = along * felt.turn_by_position * S_tree_;
     } else {
@@ -135,8 +136,8 @@ void Plant::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C) {
 }
 
 // An accelerometer feels where gravity points, beside what that does to the motion.
-void Plant::tilt_tangent(const double* x, const std::vector<ParameterId>& parameters,
-                         const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
+void PlantReadings::tilt_tangent(const double* x, const std::vector<ParameterId>& parameters,
+                                 const Eigen::VectorXd& steps, Eigen::MatrixXd& D) {
   if (!model_.has(PointReading::accelerometer)) {
     return;
   }
@@ -147,14 +148,15 @@ void Plant::tilt_tangent(const double* x, const std::vector<ParameterId>& parame
       continue;
     }
     const auto column = static_cast<Eigen::Index>(k);
-    const Variant& variant = variant_of(parameters[k], steps[column]);
-    rigid_at(x);
+    const BodyVariant& variant = tangent_.variant_of(parameters[k], steps[column]);
+    bodies_.rigid_at(x);
     const Eigen::Vector3d change =
-        (variant.structure.mechanism->tree().gravity() - tree().gravity()) / variant.step;
+        (variant.structure.mechanism->tree().gravity() - bodies_.tree().gravity()) / variant.step;
     for (const PointSlot& slot : points_) {
       const Sensor& sensor = model_.sensors[static_cast<std::size_t>(slot.sensor)];
       if (sensor.reading == PointReading::accelerometer) {
-        D(slot.sensor, column) -= (tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).dot(change);
+        D(slot.sensor, column) -=
+            (bodies_.tree().rotation(slot.body) * sensor.mounting).col(sensor.axis).dot(change);
       }
     }
   }

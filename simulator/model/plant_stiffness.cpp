@@ -1,65 +1,50 @@
 // Which effect of a Plant is the stiffest: for the message of an integrator that gives up.
 #include <Eigen/Eigenvalues>
-#include <memory>
-#include <utility>
 
-#include "simulator/model/plant.h"
+#include "simulator/model/plant_tangent.h"
 
 namespace plumbline::model {
 
-// Of the linearised equations with the effects that are active now.
-double Plant::spectral_radius(const double* x) {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(nx_, nx_);
-  A.block(0, nz_, nz_, nz_).setIdentity();
-  effect_tangent(x, nullptr, A);
-  return A.allFinite() ? A.eigenvalues().cwiseAbs().maxCoeff() : 0.0;
-}
-
-Stiffest Plant::stiffest(const double* x, const double* command) {
-  deliver_torques(x, command, nullptr);
-  factor_at(x);
-  std::vector<ForceSlot> forces = forces_;
-  std::vector<FootSlot> feet = feet_;
-  forces.swap(forces_);
-  feet.swap(feet_);  // `forces`, `feet` and `links` are the plant's own, forces_, feet_ and links_ what acts
-  std::unique_ptr<LinkContacts> links = std::move(links_);
+Stiffest PlantTangent::stiffest(const double* x, const double* command) {
+  plant_.deliver_torques(x, command, nullptr);
+  bodies_.factor_at(x);
+  Eigen::MatrixXd A(nx_, nx_);
   Stiffest found;
-  const auto compare = [&](int effect) {
-    const double rate = spectral_radius(x);
+  // Spectral radius of the linearised equations with the one effect alone that `add` adds the slopes of.
+  const auto compare = [&](int effect, const auto& add) {
+    A.setZero();
+    A.block(0, nz_, nz_, nz_).setIdentity();
+    slopes_.setZero(nz_, nx_);
+    add();
+    bodies_.accelerate_in_place(slopes_);
+    A.middleRows(nz_, nz_) += slopes_;
+    const double rate = A.allFinite() ? A.eigenvalues().cwiseAbs().maxCoeff() : 0.0;
     if (rate > 1.01 * found.rate) {  // a drag law that adds nothing to the normal law is not to blame
-      found = {model_.effects[static_cast<std::size_t>(effect)].label(), rate};
+      found = {plant_.model().effects[static_cast<std::size_t>(effect)].label(), rate};
     }
   };
-  feet_.clear();
-  for (const ForceSlot& slot : forces) {
+  for (const ForceSlot& slot : plant_.forces()) {
     if (slot.active) {
-      forces_.assign(1, slot);
-      compare(slot.effect);
+      compare(slot.effect, [&] { force_tangent(slot, x, nullptr, A); });
     }
   }
-  forces_.clear();
-  for (const FootSlot& slot : feet) {
-    feet_.assign(1, slot);
-    feet_[0].drags.clear();
-    compare(slot.normals.front().effect);
-    feet_[0].drags = slot.drags;
+  const auto add_feet = [&](GroundFeet feet) {
+    feet.add_slopes(bodies_.tree(), x, plant_.on_ground(), nullptr, slopes_, A);
+  };
+  for (const FootSlot& slot : plant_.feet().slots()) {
+    compare(slot.normals.front().effect, [&] { add_feet(plant_.feet().only(slot, false)); });
     if (!slot.drags.empty()) {
-      compare(slot.drags.front().effect);
+      compare(slot.drags.front().effect, [&] { add_feet(plant_.feet().only(slot, true)); });
     }
   }
-  feet_.clear();
-  for (int point = 0; links != nullptr && point < links->points(); ++point) {
-    const ContactLaws& laws = links->laws(point);
-    links_ = std::make_unique<LinkContacts>(links->only(point, false));
-    compare(laws.normals.front().effect);
-    links_ = std::make_unique<LinkContacts>(links->only(point, true));
+  for (int point = 0; point < plant_.link_points(); ++point) {
+    const LinkContacts& links = *plant_.links();
+    const ContactLaws& laws = links.laws(point);
+    compare(laws.normals.front().effect, [&] { link_tangent(links.only(point, false), x, nullptr, A); });
     if (!laws.drags.empty()) {
-      compare(laws.drags.front().effect);
+      compare(laws.drags.front().effect, [&] { link_tangent(links.only(point, true), x, nullptr, A); });
     }
   }
-  forces_ = std::move(forces);
-  feet_ = std::move(feet);
-  links_ = std::move(links);
   return found;
 }
 

@@ -1,7 +1,7 @@
 // Slopes by what makes up the rigid bodies: masses, inertias, gravity, the ways of the base.
 #include <algorithm>
 
-#include "simulator/model/plant.h"
+#include "simulator/model/plant_tangent.h"
 
 namespace plumbline::model {
 namespace {
@@ -12,24 +12,24 @@ bool has_same_mass(const TreeBody& one, const TreeBody& other) {
 
 }  // namespace
 
-Plant::Variant& Plant::variant_of(ParameterId id, double step) {
-  const auto found = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
+BodyVariant& PlantTangent::variant_of(ParameterId id, double step) {
+  const auto found = std::find_if(variants_.begin(), variants_.end(), [&](const BodyVariant& variant) {
     return variant.id.effect == id.effect && variant.id.parameter == id.parameter;
   });
   if (found != variants_.end()) {
     return *found;
   }
-  double& stored = values_[static_cast<std::size_t>(id.effect)][static_cast<std::size_t>(id.parameter)];
+  double& stored = plant_.stored(id.effect)[static_cast<std::size_t>(id.parameter)];
   const double here = stored;
-  Variant variant;
+  BodyVariant variant;
   variant.id = id;
   variant.step = step;
   stored = here + step;
-  variant.structure = make_structure();
+  variant.structure = bodies_.make_structure();
   stored = here;
   const std::vector<TreeBody>& bodies = variant.structure.mechanism->tree().bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!has_same_mass(bodies[b], tree().bodies()[b])) {
+    if (!has_same_mass(bodies[b], bodies_.tree().bodies()[b])) {
       variant.heavier.push_back(static_cast<int>(b));
     }
   }
@@ -38,53 +38,50 @@ Plant::Variant& Plant::variant_of(ParameterId id, double step) {
 }
 
 // -M^-1 (dM a + dh), what the same motion needs more; at the x and a that tree_slopes_ was set for.
-void Plant::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
-                              Eigen::Ref<Eigen::VectorXd> column) {
-  Variant& variant = variant_of(id, step);
-  if (variant.structure.mechanism->tree().gravity() != tree().gravity()) {
+void PlantTangent::structure_tangent(const double* x, ParameterId id, double step, bool refresh,
+                                     Eigen::Ref<Eigen::VectorXd> column) {
+  BodyVariant& variant = variant_of(id, step);
+  if (variant.structure.mechanism->tree().gravity() != bodies_.tree().gravity()) {
     gravity_tangent(x, variant, refresh, column);
     return;
   }
-  factor_at(x);
+  bodies_.factor_at(x);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(n_tree_);
   for (const int body : variant.heavier) {
     const TreeBody& other = variant.structure.mechanism->tree().bodies()[static_cast<std::size_t>(body)];
-    tree_slopes_.add_other_mass(tree(), body, other, force);
+    tree_slopes_.add_other_mass(bodies_.tree(), body, other, force);
   }
-  const Eigen::VectorXd more = S_tree_.transpose() * force +
-                               (variant.structure.extra_reduced - structure_.extra_reduced) * acceleration_;
-  column.segment(nz_, nz_) = -accelerated(more) / variant.step;
+  const Eigen::VectorXd more =
+      S_tree_.transpose() * force +
+      (variant.structure.extra_reduced - bodies_.structure().extra_reduced) * plant_.acceleration();
+  column.segment(nz_, nz_) = -bodies_.accelerated(more) / variant.step;
 }
 
-void Plant::gravity_tangent(const double* x, Variant& variant, bool refresh,
-                            Eigen::Ref<Eigen::VectorXd> column) {
+void PlantTangent::gravity_tangent(const double* x, BodyVariant& variant, bool refresh,
+                                   Eigen::Ref<Eigen::VectorXd> column) {
   if (refresh || variant.dM.size() == 0) {
     Eigen::MatrixXd M;
     Eigen::VectorXd h;
-    evaluate_rigid(x, variant.structure, M, h);
-    variant.dM = (M - M_) / variant.step;
-    variant.dh = (h - h_) / variant.step;
+    bodies_.evaluate(x, variant.structure, M, h);
+    variant.dM = (M - bodies_.M()) / variant.step;
+    variant.dh = (h - bodies_.h()) / variant.step;
   }
-  column.segment(nz_, nz_) = -accelerated(variant.dM * acceleration_ + variant.dh);
-}
-
-bool Plant::sits_at_base(int effect) const {
-  return model_.effects[static_cast<std::size_t>(effect)].law->sits_at(effects::Place::base);
+  column.segment(nz_, nz_) = -bodies_.accelerated(variant.dM * plant_.acceleration() + variant.dh);
 }
 
 // The ways of the base carry the feet: the whole rate changes, not the rigid bodies' part alone.
-void Plant::base_tangent(const SampleMotion& sample, ParameterId id, double step,
-                         Eigen::Ref<Eigen::VectorXd> column) {
-  Variant& variant = variant_of(id, step);
+void PlantTangent::base_tangent(const SampleMotion& sample, ParameterId id, double step,
+                                Eigen::Ref<Eigen::VectorXd> column) {
+  BodyVariant& variant = variant_of(id, step);
   const auto rate_here = [&]() {
-    rigid_known_ = false;
+    bodies_.forget();
     Eigen::VectorXd xdot = Eigen::VectorXd::Zero(nx_);
-    rate(sample.middle, sample.command, xdot.data());
+    plant_.rate(sample.middle, sample.command, xdot.data());
     return xdot;
   };
-  std::swap(structure_, variant.structure);
+  bodies_.swap(variant.structure);
   const Eigen::VectorXd there = rate_here();
-  std::swap(structure_, variant.structure);
+  bodies_.swap(variant.structure);
   column = (there - rate_here()) / variant.step;
 }
 

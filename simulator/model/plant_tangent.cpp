@@ -1,4 +1,5 @@
-// Linearisation of a Plant: what a window's sensitivities are built from.
+#include "simulator/model/plant_tangent.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 
 #include "simulator/effects/parameters.h"
 #include "simulator/model/asked_torque.h"
-#include "simulator/model/plant.h"
 #include "simulator/model/supply.h"
 
 namespace plumbline::model {
@@ -33,50 +33,8 @@ Eigen::VectorXd slope_of_rate(const Rate& rate, const Move& move, int states, do
   return (there - here) / step;
 }
 
-}  // namespace
-
-// d(M^-1 (Q - h))/d(z, w) with effects and torques held: -M^-1 d(M a + h)/d(z, w) at the x and the
-// acceleration a that tree_slopes_ was set for. What rotors and pulleys add to M is constant.
-void Plant::rigid_tangent() {
-  Eigen::MatrixXd by_position;
-  Eigen::MatrixXd by_velocity;
-  tree_slopes_.inverse_dynamics(by_position, by_velocity);
-  rigid_A_.leftCols(nz_).noalias() = -S_tree_.transpose() * by_position * S_tree_;
-  rigid_A_.rightCols(nz_).noalias() = -S_tree_.transpose() * by_velocity * S_tree_;
-  factor_.solveInPlace(rigid_A_);
-}
-
-// Half of what a place's position and velocity change by over a sample.
-effects::Motion Plant::half_change(const ForceSlot& slot, const double* change) const {
-  effects::Motion half;
-  if (change == nullptr) {
-    return half;
-  }
-  for (const Entry& entry : slot.line.entries) {
-    half.position += 0.5 * entry.value * change[entry.index];
-    half.velocity += 0.5 * entry.value * change[nz_ + entry.index];
-  }
-  return half;
-}
-
-// Adds the effects' own slopes: scalar differences of each law, no dynamics.
-void Plant::effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
-  slopes_.setZero(nz_, nx_);
-  for (const ForceSlot& slot : forces_) {
-    if (slot.active) {
-      force_tangent(slot, x, change, A);
-    }
-  }
-  ground_tangent(x, change, A);
-  if (links_ != nullptr) {
-    link_tangent(x, change, A);
-  }
-  accelerate_in_place(slopes_);
-  A.middleRows(nz_, nz_) += slopes_;
-}
-
-// On which sides of the points where its force jumps a law is.
-std::vector<bool> Plant::sides_of_jumps(const ForceSlot& slot, const effects::Motion& at, const double* p) {
+/// On which sides of the points where its force jumps a law is.
+std::vector<bool> sides_of_jumps(const ForceSlot& slot, const effects::Motion& at, const double* p) {
   std::vector<double> g;
   slot.law->switches(at, p, g);
   g.resize(static_cast<std::size_t>(slot.law->jumps(p)));
@@ -88,9 +46,60 @@ std::vector<bool> Plant::sides_of_jumps(const ForceSlot& slot, const effects::Mo
   return sides;
 }
 
+}  // namespace
+
+PlantTangent::PlantTangent(PlantDynamics& plant)
+    : plant_(plant),
+      bodies_(plant.bodies()),
+      S_tree_(plant.map().S_tree()),
+      n_tree_(plant.map().tree()),
+      nz_(plant.positions()),
+      nx_(plant.states()) {}
+
+// d(M^-1 (Q - h))/d(z, w) with effects and torques held: -M^-1 d(M a + h)/d(z, w) at the x and the
+// acceleration a that tree_slopes_ was set for. What rotors and pulleys add to M is constant.
+void PlantTangent::rigid_tangent() {
+  Eigen::MatrixXd by_position;
+  Eigen::MatrixXd by_velocity;
+  tree_slopes_.inverse_dynamics(by_position, by_velocity);
+  rigid_A_.leftCols(nz_).noalias() = -S_tree_.transpose() * by_position * S_tree_;
+  rigid_A_.rightCols(nz_).noalias() = -S_tree_.transpose() * by_velocity * S_tree_;
+  bodies_.factor().solveInPlace(rigid_A_);
+}
+
+// Half of what a place's position and velocity change by over a sample.
+effects::Motion PlantTangent::half_change(const ForceSlot& slot, const double* change) const {
+  effects::Motion half;
+  if (change == nullptr) {
+    return half;
+  }
+  for (const LinearForm::Entry& entry : slot.line.entries) {
+    half.position += 0.5 * entry.value * change[entry.index];
+    half.velocity += 0.5 * entry.value * change[nz_ + entry.index];
+  }
+  return half;
+}
+
+// Adds the effects' own slopes: scalar differences of each law, no dynamics.
+void PlantTangent::effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
+  slopes_.setZero(nz_, nx_);
+  for (const ForceSlot& slot : plant_.forces()) {
+    if (slot.active) {
+      force_tangent(slot, x, change, A);
+    }
+  }
+  plant_.feet().add_slopes(bodies_.tree(), x, plant_.on_ground(), change, slopes_, A);
+  if (plant_.links() != nullptr) {
+    link_tangent(*plant_.links(), x, change, A);
+  }
+  bodies_.accelerate_in_place(slopes_);
+  A.middleRows(nz_, nz_) += slopes_;
+}
+
 // How far the place may move either way without a jump: where a stop has just been met or left, a difference
 // across its surface is no slope of what follows.
-Plant::Reach Plant::reach_beside_jumps(const ForceSlot& slot, const effects::Motion& at, double most) {
+PlantTangent::Reach PlantTangent::reach_beside_jumps(const ForceSlot& slot, const effects::Motion& at,
+                                                     double most) const {
   const double* p = values(slot.effect);
   if (slot.law->jumps(p) == 0) {
     return {most, most};
@@ -105,14 +114,14 @@ Plant::Reach Plant::reach_beside_jumps(const ForceSlot& slot, const effects::Mot
 
 // A difference as wide as the change over a sample is the mean slope on the way, also of a law that jumps
 // there. The force's slopes go to slopes_, those of the states' rates to A.
-void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* change,
-                          Eigen::Ref<Eigen::MatrixXd> A) {
+void PlantTangent::force_tangent(const ForceSlot& slot, const double* x, const double* change,
+                                 Eigen::Ref<Eigen::MatrixXd> A) {
   const double* p = values(slot.effect);
-  const effects::Motion at = motion(slot, x);
+  const effects::Motion at = plant_.motion(slot, x);
   const int states = slot.state >= 0 ? slot.law->state_count() : 0;
-  Few s = Few::Zero(std::max(states, 1));
-  Few up = s;
-  Few down = s;
+  FewStates s = FewStates::Zero(std::max(states, 1));
+  FewStates up = s;
+  FewStates down = s;
   for (int k = 0; k < states; ++k) {
     s[k] = x[slot.state + k];
   }
@@ -122,8 +131,8 @@ void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* 
       slot.law->state_rate(plus, s.data(), p, up.data());
       slot.law->state_rate(minus, s.data(), p, down.data());
     }
-    for (const Entry& column : slot.line.entries) {
-      for (const Entry& row : slot.line.entries) {
+    for (const LinearForm::Entry& column : slot.line.entries) {
+      for (const LinearForm::Entry& row : slot.line.entries) {
         slopes_(row.index, first + column.index) += row.value * slope * column.value;
       }
       for (int k = 0; k < states; ++k) {
@@ -148,7 +157,7 @@ void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* 
     const double f_down = slot.law->force(at, s.data(), p);
     slot.law->state_rate(at, s.data(), p, down.data());
     s[k] = middle;
-    for (const Entry& row : slot.line.entries) {
+    for (const LinearForm::Entry& row : slot.line.entries) {
       slopes_(row.index, slot.state + k) += row.value * ((f_up - f_down) / (2.0 * ds));
     }
     for (int r = 0; r < states; ++r) {
@@ -158,40 +167,41 @@ void Plant::force_tangent(const ForceSlot& slot, const double* x, const double* 
 }
 
 // Hidden states of the actuators act through the delivered torque.
-void Plant::actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+void PlantTangent::actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
   const auto has_states = [](const std::vector<ActuatorSlot>& chain) {
     return std::any_of(chain.begin(), chain.end(), [](const ActuatorSlot& slot) { return slot.state >= 0; });
   };
-  if (std::none_of(actuators_.begin(), actuators_.end(), has_states)) {
+  if (std::none_of(plant_.actuators().begin(), plant_.actuators().end(), has_states)) {
     return;
   }
   Eigen::VectorXd moved = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd down = Eigen::VectorXd::Zero(nx_);
-  for (int m = 0; m < motors(); ++m) {
-    const double commanded = asked_torque(*this, m, command[m]);
-    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+  for (int m = 0; m < plant_.motors(); ++m) {
+    const double commanded = asked_torque(plant_.model(), m, command[m]);
+    for (const ActuatorSlot& slot : plant_.actuators()[static_cast<std::size_t>(m)]) {
       for (int k = 0; slot.state >= 0 && k < slot.law->state_count(); ++k) {
         const int column = slot.state + k;
         const double step = 1e-6 * (1.0 + std::abs(x[column]));
         up.setZero();
         down.setZero();
         moved[column] = x[column] + step;
-        const double plus = actuator_chain(m, moved.data(), commanded, up.data());
+        const double plus = plant_.actuator_chain(m, moved.data(), commanded, up.data());
         moved[column] = x[column] - step;
-        const double minus = actuator_chain(m, moved.data(), commanded, down.data());
+        const double minus = plant_.actuator_chain(m, moved.data(), commanded, down.data());
         moved[column] = x[column];
         A.col(column) += (up - down) / (2.0 * step);
         A.col(column).segment(nz_, nz_) +=
-            accelerated(motor_lines_[static_cast<std::size_t>(m)].reduced) * ((plus - minus) / (2.0 * step));
+            bodies_.accelerated(plant_.motor_lines()[static_cast<std::size_t>(m)].reduced) *
+            ((plus - minus) / (2.0 * step));
       }
     }
   }
 }
 
-void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
-  deliver_torques(x, command, nullptr);
-  factor_at(x);
+void PlantTangent::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+  plant_.deliver_torques(x, command, nullptr);
+  bodies_.factor_at(x);
   A.setZero();
   A.block(0, nz_, nz_, nz_).setIdentity();
   effect_tangent(x, nullptr, A);
@@ -202,9 +212,9 @@ void Plant::stiff_jacobian(const double* x, const double* command, Eigen::Ref<Ei
 // law measures from is to move the place the other way: as wide as the sample, so that a sharp knee counts
 // with its mean slope, as in force_tangent. A step that would move a jump across the place is taken the other
 // way.
-void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
-                                    ParameterId id, const effects::Values& moved, double step,
-                                    Eigen::Ref<Eigen::VectorXd> column) {
+void PlantTangent::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& sample, const double* x,
+                                           ParameterId id, const effects::Values& moved, double step,
+                                           Eigen::Ref<Eigen::VectorXd> column) {
   const effects::Declaration& declaration = slot.law->declaration();
   const bool rest = effects::is_rest(declaration.parameters[static_cast<std::size_t>(id.parameter)]);
   const double* here = values(slot.effect);
@@ -213,7 +223,7 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
   moved_back[static_cast<std::size_t>(id.parameter)] -= 2.0 * step;
   const double* s = slot.state >= 0 ? x + slot.state : nullptr;
   const int states = slot.state >= 0 ? slot.law->state_count() : 0;
-  const effects::Motion mean = motion(slot, x);
+  const effects::Motion mean = plant_.motion(slot, x);
   const effects::Motion half = half_change(slot, sample.change);
   const int parts = std::abs(half.velocity) > std::abs(mean.velocity) ? kPartsOfTurn : 1;
   const double reach =
@@ -239,21 +249,22 @@ void Plant::force_parameter_tangent(const ForceSlot& slot, const SampleMotion& s
       column.segment(slot.state, states) += (up - now) / width;
     }
   }
-  column.segment(nz_, nz_) = accelerated(slot.line.reduced) * force;
+  column.segment(nz_, nz_) = bodies_.accelerated(slot.line.reduced) * force;
 }
 
 // A hidden state that is faster than the sample has its mean far from the middle: it is where its rate is the
 // sample's change, to first order (exact for a first-order lag).
-void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
-                                       const double* x, const Eigen::MatrixXd& A, effects::Values moved,
-                                       double step, Eigen::Ref<Eigen::VectorXd> column) {
-  const double gain = torque_gain(motor);
-  const double here = asked_torque(*this, motor, sample.command[motor]);
+void PlantTangent::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, const SampleMotion& sample,
+                                              const double* x, const Eigen::MatrixXd& A,
+                                              effects::Values moved, double step,
+                                              Eigen::Ref<Eigen::VectorXd> column) {
+  const double gain = torque_gain(plant_.model().motors[static_cast<std::size_t>(motor)]);
+  const double here = asked_torque(plant_.model(), motor, sample.command[motor]);
   Eigen::VectorXd up = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd now = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd mean = Eigen::Map<const Eigen::VectorXd>(x, nx_);
   if (slot.state >= 0) {
-    actuator_chain(motor, x, here, now.data());
+    plant_.actuator_chain(motor, x, here, now.data());
     const int count = slot.law->state_count();
     const Eigen::VectorXd behind =
         Eigen::Map<const Eigen::VectorXd>(sample.change + slot.state, count) / sample.period -
@@ -267,25 +278,25 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
   }
   const auto of = [&](const ActuatorSlot& one) { return values(one.effect); };
   const double delay_change = slot.law->delay(moved.data()) - slot.law->delay(values(slot.effect));
-  if (any_acts(actuators_.back(), of) && delay_change == 0.0) {  // what one motor takes, all others lack
-    column =
-        slope_of_rate([&](double* xdot) { rate(mean.data(), sample.command, xdot); },
-                      [&] { std::swap(values_[static_cast<std::size_t>(slot.effect)], moved); }, nx_, step);
+  const bool shares = any_acts(plant_.actuators().back(), of);
+  if (shares && delay_change == 0.0) {  // what one motor takes, all others lack
+    column = slope_of_rate([&](double* xdot) { plant_.rate(mean.data(), sample.command, xdot); },
+                           [&] { std::swap(plant_.stored(slot.effect), moved); }, nx_, step);
     return;
   }
-  const double before = actuator_chain(motor, mean.data(), here, now.data());
+  const double before = plant_.actuator_chain(motor, mean.data(), here, now.data());
   const double delayed = here + gain * sample.command_slope[motor] * delay_change;
-  std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
-  const double after = actuator_chain(motor, mean.data(), delayed, up.data());
-  std::swap(values_[static_cast<std::size_t>(slot.effect)], moved);
+  std::swap(plant_.stored(slot.effect), moved);
+  const double after = plant_.actuator_chain(motor, mean.data(), delayed, up.data());
+  std::swap(plant_.stored(slot.effect), moved);
   column = (up - now) / step;
   // Laws that feel what the motor delivers take their share of it: behind a voltage limit all. Those with
   // states (a winding) follow it.
   double acts = after - before;
-  for (const ForceSlot& law : forces_) {
+  for (const ForceSlot& law : plant_.forces()) {
     if (law.active && law.at_motor && law.motor == motor && !law.law->feels_gear_load()) {
       const double* s = law.state >= 0 ? x + law.state : nullptr;
-      effects::Motion at = motion(law, x);
+      effects::Motion at = plant_.motion(law, x);
       at.load = before;
       acts -= law.law->force(at, s, values(law.effect));
       if (s != nullptr) {
@@ -301,29 +312,30 @@ void Plant::actuator_parameter_tangent(int motor, const ActuatorSlot& slot, cons
     }
   }
   column.segment(nz_, nz_) +=
-      accelerated(motor_lines_[static_cast<std::size_t>(motor)].reduced) * (acts / step);
+      bodies_.accelerated(plant_.motor_lines()[static_cast<std::size_t>(motor)].reduced) * (acts / step);
   if (delay_change != 0.0) {
     // The command moves where it jumps, not in the middle of the sample.
     const double hold = sample.hold > 0.0 ? sample.hold : sample.period;
-    const double jump = std::fmod(delay(motor), hold);
+    const double jump = std::fmod(plant_.delay(motor), hold);
     column += (0.5 * hold - jump) * (A * column).eval();
   }
 }
 
-void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
-                              ParameterId id, double step, bool refresh, Eigen::Ref<Eigen::VectorXd> column) {
+void PlantTangent::parameter_tangent(const SampleMotion& sample, const double* x, const Eigen::MatrixXd& A,
+                                     ParameterId id, double step, bool refresh,
+                                     Eigen::Ref<Eigen::VectorXd> column) {
   column.setZero();
-  effects::Values moved = values_[static_cast<std::size_t>(id.effect)];
+  effects::Values moved = plant_.stored(id.effect);
   moved[static_cast<std::size_t>(id.parameter)] += step;
-  for (const ForceSlot& slot : forces_) {
+  for (const ForceSlot& slot : plant_.forces()) {
     if (slot.effect == id.effect && (slot.law->state_count() == 0 || slot.state >= 0)) {
       force_parameter_tangent(slot, sample, x, id, moved, step, column);
       return;
     }
   }
   bool is_found = false;
-  for (int m = 0; m < motors(); ++m) {
-    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+  for (int m = 0; m < plant_.motors(); ++m) {
+    for (const ActuatorSlot& slot : plant_.actuators()[static_cast<std::size_t>(m)]) {
       if (slot.effect == id.effect && !is_found) {
         actuator_parameter_tangent(m, slot, sample, x, A, moved, step, column);
         is_found = true;
@@ -337,48 +349,64 @@ void Plant::parameter_tangent(const SampleMotion& sample, const double* x, const
   if (is_found) {
     return;
   }
-  for (const ActuatorSlot& slot : actuators_.back()) {
+  for (const ActuatorSlot& slot : plant_.actuators().back()) {
     if (slot.effect == id.effect) {
-      column =
-          slope_of_rate([&](double* xdot) { rate(x, sample.command, xdot); },
-                        [&] { std::swap(values_[static_cast<std::size_t>(id.effect)], moved); }, nx_, step);
+      column = slope_of_rate([&](double* xdot) { plant_.rate(x, sample.command, xdot); },
+                             [&] { std::swap(plant_.stored(id.effect), moved); }, nx_, step);
       return;
     }
   }
-  for (const StructureSlot& slot : structures_) {
-    if (slot.effect == id.effect && sits_at_base(id.effect)) {
+  if (bodies_.depend_on(id.effect)) {
+    if (bodies_.sits_at_base(id.effect)) {
       base_tangent(sample, id, step, column);
-      return;
-    }
-    if (slot.effect == id.effect) {
+    } else {
       structure_tangent(sample.middle, id, step, refresh, column);
-      return;
     }
+    return;
   }
-  const std::string& at = model_.effects[static_cast<std::size_t>(id.effect)].at;
-  for (const FootSlot& slot : feet_) {
-    if (model_.feet[static_cast<std::size_t>(slot.foot)].answers_to(at)) {
+  const std::string& at = plant_.model().effects[static_cast<std::size_t>(id.effect)].at;
+  for (const FootSlot& slot : plant_.feet().slots()) {
+    if (plant_.model().feet[static_cast<std::size_t>(slot.foot)].answers_to(at)) {
       ground_parameter_tangent(slot, x, id, step, moved, column);
     }
   }
-  if (links_ != nullptr && links_->answers_to(id.effect)) {
+  if (plant_.links() != nullptr && plant_.links()->answers_to(id.effect)) {
     link_parameter_tangent(x, id, step, moved, column);
   }
 }
 
-void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,
-                    const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+// Where rate() has left the bodies: what the motors' speeds do to the share that a supply leaves them.
+// A writable view is passed by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+void PlantTangent::supply_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A) {
+  const std::vector<ActuatorSlot>& shared = plant_.actuators().back();
+  const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
+  if (!any_acts(shared, of)) {
+    return;
+  }
+  const Supplies supplies(shared, plant_.motor_lines(), of, x + nz_);
+  Eigen::VectorXd full(plant_.motors());
+  for (int m = 0; m < plant_.motors(); ++m) {
+    full[m] = plant_.actuator_chain(m, x, asked_torque(plant_.model(), m, command[m]), nullptr);
+  }
+  A.block(nz_, nz_, nz_, nz_) += bodies_.factor().solve(supplies.force_of(full)) * supplies.slope(full);
+}
+
+void PlantTangent::tangent(const SampleMotion& sample, const std::vector<ParameterId>& parameters,
+                           const Eigen::VectorXd& steps, bool refresh, Eigen::MatrixXd& A,
+                           Eigen::MatrixXd& B) {
   const double* x = sample.middle;
   const bool is_due = refresh || rigid_A_.cols() != 2 * nz_;
   rigid_A_.resize(nz_, 2 * nz_);
   Eigen::VectorXd xdot(nx_);
-  if (is_due && has_loops()) {
-    rate(x, sample.command, xdot.data());
-    loop_tangent(x, Q_ + h_, Eigen::VectorXd(acceleration_));
+  if (is_due && bodies_.has_loops()) {
+    plant_.rate(x, sample.command, xdot.data());
+    bodies_.loop_slope(x, plant_.forces_less_bias() + bodies_.h(), Eigen::VectorXd(plant_.acceleration()),
+                       rigid_A_);
   }
-  rate(x, sample.command, xdot.data());  // leaves M, h, torques and acceleration at x
-  tree_slopes_.set(tree(), S_tree_ * acceleration_);
-  if (is_due && !has_loops()) {
+  plant_.rate(x, sample.command, xdot.data());  // leaves M, h, torques and acceleration at x
+  tree_slopes_.set(bodies_.tree(), S_tree_ * plant_.acceleration());
+  if (is_due && !bodies_.has_loops()) {
     rigid_tangent();
   }
   A.setZero(nx_, nx_);
@@ -386,15 +414,7 @@ void Plant::tangent(const SampleMotion& sample, const std::vector<ParameterId>& 
   A.block(nz_, 0, nz_, 2 * nz_) = rigid_A_;
   effect_tangent(x, sample.change, A);
   actuator_tangent(x, sample.command, A);
-  const auto of = [&](const ActuatorSlot& slot) { return values(slot.effect); };
-  if (any_acts(actuators_.back(), of)) {
-    const Supplies supplies(actuators_.back(), motor_lines_, of, x + nz_);
-    Eigen::VectorXd full(motors());
-    for (int m = 0; m < motors(); ++m) {
-      full[m] = actuator_chain(m, x, asked_torque(*this, m, sample.command[m]), nullptr);
-    }
-    A.block(nz_, nz_, nz_, nz_) += factor_.solve(supplies.force_of(full)) * supplies.slope(full);
-  }
+  supply_tangent(x, sample.command, A);
   // Mean over the sample of a cubic with these ends and rates, where the rates differ by A * change. Behind a
   // jump a stiff law may bring the velocity to its end within a hundredth of the sample, as no cubic does:
   // its mean velocity is then not the change of position over the time.

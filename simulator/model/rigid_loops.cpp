@@ -1,10 +1,10 @@
-// The closed loops of a Plant: forces that hold them, and projection onto them.
+// The closed loops of rigid bodies: forces that hold them, and projection onto them.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "simulator/model/plant.h"
+#include "simulator/model/rigid_bodies.h"
 #include "simulator/trace/error.h"
 
 namespace plumbline::model {
@@ -16,7 +16,7 @@ constexpr double kDeadCentre = 1e-13;  // reciprocal condition of J M^-1 J'
 
 }  // namespace
 
-void Plant::make_loops() {
+void RigidBodies::make_loops() {
   if (model_.loops.empty()) {
     return;
   }
@@ -30,26 +30,27 @@ void Plant::make_loops() {
 }
 
 // The ways of a base that an effect bends are the structure's, not the skeleton's.
-bool Plant::planar_base_is_bent() const {
+bool RigidBodies::planar_base_is_bent() const {
   return std::any_of(structures_.begin(), structures_.end(),
                      [&](const StructureSlot& slot) { return sits_at_base(slot.effect); });
 }
 
-std::unique_ptr<LoopClosure> Plant::own_closure() const {
-  return model_.loops.empty() ? nullptr : std::make_unique<LoopClosure>(model_, S_tree_, q0_.head(n_tree_));
+std::unique_ptr<LoopClosure> RigidBodies::own_closure() const {
+  return model_.loops.empty() ? nullptr
+                              : std::make_unique<LoopClosure>(model_, map_.S_tree(), map_.q0().head(n_tree_));
 }
 
-Eigen::VectorXd Plant::home() const {
+Eigen::VectorXd RigidBodies::home() const {
   return has_loops() ? closure_->home() : Eigen::VectorXd(Eigen::VectorXd::Zero(nz_));
 }
 
 // At the position and velocity that M_ and h_ were evaluated at.
-void Plant::hold_loops() {
+void RigidBodies::hold_loops() {
   LoopRows& rows = closure_->rows();
-  const TreeDynamics& tree = structure_.mechanism->tree();
+  const TreeDynamics& tree = this->tree();
   rows.jacobian(tree, n_tree_, loop_tree_J_);
   rows.bias(tree, loop_bias_);
-  loop_J_.noalias() = loop_tree_J_ * S_tree_;
+  loop_J_.noalias() = loop_tree_J_ * map_.S_tree();
   loop_Y_ = factor_.solve(loop_J_.transpose());
   loop_factor_.compute(loop_J_ * loop_Y_);
   if (loop_J_.allFinite() && M_.allFinite() &&
@@ -62,7 +63,7 @@ void Plant::hold_loops() {
 }
 
 // M a = Q + J' lambda with J a + bias = 0.
-void Plant::accelerate(const Eigen::VectorXd& Q, Eigen::VectorXd& acceleration) const {
+void RigidBodies::accelerate(const Eigen::VectorXd& Q, Eigen::VectorXd& acceleration) const {
   acceleration = factor_.solve(Q);
   if (has_loops()) {
     acceleration -= loop_Y_ * loop_factor_.solve(loop_J_ * acceleration + loop_bias_);
@@ -70,7 +71,7 @@ void Plant::accelerate(const Eigen::VectorXd& Q, Eigen::VectorXd& acceleration) 
 }
 
 // What a further force adds to the acceleration.
-Eigen::VectorXd Plant::accelerated(const Eigen::VectorXd& Q) const {
+Eigen::VectorXd RigidBodies::accelerated(const Eigen::VectorXd& Q) const {
   Eigen::VectorXd acceleration = factor_.solve(Q);
   if (has_loops()) {
     acceleration -= loop_Y_ * loop_factor_.solve(loop_J_ * acceleration);
@@ -78,7 +79,7 @@ Eigen::VectorXd Plant::accelerated(const Eigen::VectorXd& Q) const {
   return acceleration;
 }
 
-void Plant::accelerate_in_place(Eigen::MatrixXd& Q) const {
+void RigidBodies::accelerate_in_place(Eigen::MatrixXd& Q) const {
   factor_.solveInPlace(Q);
   if (has_loops()) {
     Q -= loop_Y_ * loop_factor_.solve(loop_J_ * Q);
@@ -87,43 +88,44 @@ void Plant::accelerate_in_place(Eigen::MatrixXd& Q) const {
 
 // Newton's step of an equilibrium: K move = -force and J move = -phi. The force is one that the loops leave,
 // so that K alone has not full rank.
-Eigen::VectorXd Plant::move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
-                                        const Eigen::VectorXd& x) {
-  const Eigen::VectorXd off = closure_->errors(x.head(nz_));
+Eigen::VectorXd RigidBodies::move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
+                                              const Eigen::VectorXd& z) {
+  const Eigen::VectorXd off = closure_->errors(z);
   const double stiffness = K.cwiseAbs().maxCoeff();
   Eigen::MatrixXd all(nz_ + off.size(), nz_);
-  all << K, stiffness * closure_->jacobian(x.head(nz_));
+  all << K, stiffness * closure_->jacobian(z);
   Eigen::VectorXd right(all.rows());
   right << force, stiffness * off;
   return -all.completeOrthogonalDecomposition().solve(right);
 }
 
 // By differences of the acceleration itself: M, h, J and the bias all move.
-void Plant::loop_tangent(const double* x, const Eigen::VectorXd& Q, const Eigen::VectorXd& a0) {
+void RigidBodies::loop_slope(const double* x, const Eigen::VectorXd& Q, const Eigen::VectorXd& a0,
+                             Eigen::MatrixXd& slope) {
   constexpr double kPositionStep = 1e-6;  // rad or m
   constexpr double kVelocityStep = 1e-4;
   LoopRows& rows = closure_->rows();
-  Eigen::VectorXd moved = Vector(x, nx_);
+  Eigen::VectorXd moved = Vector(x, 2 * nz_);
   Eigen::MatrixXd M, J;
   Eigen::VectorXd h, bias;
   for (int i = 0; i < 2 * nz_; ++i) {
     const double step = i < nz_ ? kPositionStep : kVelocityStep;
     moved[i] = x[i] + step;
-    evaluate_rigid(moved.data(), structure_, M, h);
-    rows.jacobian(structure_.mechanism->tree(), n_tree_, loop_tree_J_);
-    rows.bias(structure_.mechanism->tree(), bias);
-    J.noalias() = loop_tree_J_ * S_tree_;
+    evaluate(moved.data(), structure_, M, h);
+    rows.jacobian(tree(), n_tree_, loop_tree_J_);
+    rows.bias(tree(), bias);
+    J.noalias() = loop_tree_J_ * map_.S_tree();
     const Eigen::LLT<Eigen::MatrixXd> mass(M);
     const Eigen::MatrixXd Y = mass.solve(J.transpose());
     Eigen::VectorXd a = mass.solve(Q - h);
     a -= Y * (J * Y).llt().solve(J * a + bias);
-    rigid_A_.col(i) = (a - a0) / step;
+    slope.col(i) = (a - a0) / step;
     moved[i] = x[i];
   }
 }
 
 // Newton's method with the directions M^-1 J' of where it begins: no motion of the free joints is invented.
-double Plant::close_loops(double* x) {
+double RigidBodies::close_loops(double* x) {
   constexpr int kRounds = 12;
   factor_at(x);
   const Eigen::MatrixXd Y = loop_Y_;
@@ -155,14 +157,14 @@ double Plant::close_loops(double* x) {
   return before;
 }
 
-Eigen::Vector2d Plant::loop_errors(const double* x) {
+Eigen::Vector2d RigidBodies::loop_errors(const double* x) {
   const Vector z(x, nz_);
   const Vector w(x + nz_, nz_);
   return {closure_->errors(z).cwiseAbs().maxCoeff(), (closure_->jacobian(z) * w).cwiseAbs().maxCoeff()};
 }
 
 // z moves by P dz, P = 1 - Y (J Y)^-1 J; w by P dw less what the turn of J asks for.
-Eigen::MatrixXd Plant::closing_slope(const double* x) {
+Eigen::MatrixXd RigidBodies::closing_slope(const double* x) {
   constexpr double kStep = 1e-6;  // rad or m
   factor_at(x);
   const Vector z(x, nz_);

@@ -1,11 +1,11 @@
-// Hidden states: which the past determines, and what it makes of them.
+#include "simulator/model/hidden_states.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "simulator/model/asked_torque.h"
-#include "simulator/model/plant.h"
 
 namespace plumbline::model {
 
@@ -53,17 +53,17 @@ void step_states(const RateOf& rate_of, double h, int count, double* s) {
 
 }  // namespace
 
-std::vector<int> Plant::carried_states() const {
+std::vector<int> carried_states(const PlantDynamics& plant) {
   std::vector<int> indices;
   const auto add = [&](const effects::Law& law, int state) {
     for (int k = 0; state >= 0 && k < law.state_count(); ++k) {
       indices.push_back(state + k);
     }
   };
-  for (const ForceSlot& slot : forces_) {
+  for (const ForceSlot& slot : plant.forces()) {
     add(*slot.law, slot.state);
   }
-  for (const std::vector<ActuatorSlot>& chain : actuators_) {
+  for (const std::vector<ActuatorSlot>& chain : plant.actuators()) {
     for (const ActuatorSlot& slot : chain) {
       add(*slot.law, slot.state);
     }
@@ -72,14 +72,14 @@ std::vector<int> Plant::carried_states() const {
 }
 
 // What comes before a lag in a motor's chain is what the lag follows.
-std::vector<int> Plant::carried_state_effects() const {
+std::vector<int> carried_state_effects(const PlantDynamics& plant) {
   std::vector<int> effects;
-  for (const ForceSlot& slot : forces_) {
+  for (const ForceSlot& slot : plant.forces()) {
     if (slot.state >= 0) {
       effects.push_back(slot.effect);
     }
   }
-  for (const std::vector<ActuatorSlot>& chain : actuators_) {
+  for (const std::vector<ActuatorSlot>& chain : plant.actuators()) {
     const auto last =
         std::find_if(chain.rbegin(), chain.rend(), [](const auto& one) { return one.state >= 0; });
     std::for_each(last, chain.rend(), [&](const ActuatorSlot& slot) { effects.push_back(slot.effect); });
@@ -87,15 +87,15 @@ std::vector<int> Plant::carried_state_effects() const {
   return effects;
 }
 
-void Plant::carry_states(const double* from, const double* to, const double* command, double h,
-                         double* x) const {
-  for (const ForceSlot& slot : forces_) {
+void carry_states(const PlantDynamics& plant, const double* from, const double* to, const double* command,
+                  double h, double* x) {
+  for (const ForceSlot& slot : plant.forces()) {
     if (slot.state < 0 || !slot.active) {
       continue;
     }
     const auto along = [&](const double* at) {
-      const Vector z(at, nz_);
-      const Vector w(at + nz_, nz_);
+      const Vector z(at, plant.positions());
+      const Vector w(at + plant.positions(), plant.positions());
       return std::make_pair(slot.line.offset + slot.line.reduced.dot(z), slot.line.reduced.dot(w));
     };
     const auto [q0, v0] = along(from);
@@ -103,63 +103,70 @@ void Plant::carry_states(const double* from, const double* to, const double* com
     // What a winding follows. What a gear passes on needs the acceleration: no law with states feels it.
     const double load =
         slot.at_motor
-            ? actuator_chain(slot.motor, x, asked_torque(*this, slot.motor, command[slot.motor]), nullptr)
+            ? plant.actuator_chain(slot.motor, x,
+                                   asked_torque(plant.model(), slot.motor, command[slot.motor]), nullptr)
             : 0.0;
     const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), load};
-    step_states<Few>(
-        [&](const double* s, double* rate) { slot.law->state_rate(middle, s, values(slot.effect), rate); }, h,
-        slot.law->state_count(), x + slot.state);
+    step_states<FewStates>(
+        [&](const double* s, double* rate) {
+          slot.law->state_rate(middle, s, plant.values(slot.effect), rate);
+        },
+        h, slot.law->state_count(), x + slot.state);
   }
-  for (int m = 0; m < motors(); ++m) {
-    double torque = asked_torque(*this, m, command[m]);
-    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+  for (int m = 0; m < plant.motors(); ++m) {
+    double torque = asked_torque(plant.model(), m, command[m]);
+    for (const ActuatorSlot& slot : plant.actuators()[static_cast<std::size_t>(m)]) {
       if (slot.state >= 0) {
-        step_states<Few>([&](const double* s,
-                             double* rate) { slot.law->state_rate(torque, s, values(slot.effect), rate); },
-                         h, slot.law->state_count(), x + slot.state);
+        step_states<FewStates>(
+            [&](const double* s, double* rate) {
+              slot.law->state_rate(torque, s, plant.values(slot.effect), rate);
+            },
+            h, slot.law->state_count(), x + slot.state);
       }
       if (slot.state >= 0 || slot.law->state_count() == 0) {
-        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+        torque =
+            slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, plant.values(slot.effect));
       }
     }
   }
 }
 
 // A force's states are 0, but for those that follow the load (a winding's torque): where they stay under it.
-void Plant::settle(const double* command, double* x) const {
+void settle(const PlantDynamics& plant, const double* command, double* x) {
   constexpr double kLong = 1e4;  // s
   const auto settle_force = [&](const ForceSlot& slot, double load) {
     const int count = slot.law->state_count();
     const auto rate_of = [&](double under, const double* s, double* rate) {
-      slot.law->state_rate({0.0, 0.0, under}, s, values(slot.effect), rate);
+      slot.law->state_rate({0.0, 0.0, under}, s, plant.values(slot.effect), rate);
     };
-    Few free(count);
-    Few loaded(count);
+    FewStates free(count);
+    FewStates loaded(count);
     std::fill_n(x + slot.state, count, 0.0);
     rate_of(0.0, x + slot.state, free.data());
     rate_of(load, x + slot.state, loaded.data());
     if (free != loaded) {
-      step_states<Few>([&](const double* s, double* rate) { rate_of(load, s, rate); }, kLong, count,
-                       x + slot.state);
+      step_states<FewStates>([&](const double* s, double* rate) { rate_of(load, s, rate); }, kLong, count,
+                             x + slot.state);
     }
   };
-  for (int m = 0; m < motors(); ++m) {
-    double torque = asked_torque(*this, m, command[m]);
-    for (const ActuatorSlot& slot : actuators_[static_cast<std::size_t>(m)]) {
+  for (int m = 0; m < plant.motors(); ++m) {
+    double torque = asked_torque(plant.model(), m, command[m]);
+    for (const ActuatorSlot& slot : plant.actuators()[static_cast<std::size_t>(m)]) {
       if (slot.state >= 0) {
-        slot.law->settle(torque, values(slot.effect), x + slot.state);
+        slot.law->settle(torque, plant.values(slot.effect), x + slot.state);
       }
       if (slot.state >= 0 || slot.law->state_count() == 0) {
-        torque = slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, values(slot.effect));
+        torque =
+            slot.law->torque(torque, slot.state >= 0 ? x + slot.state : nullptr, plant.values(slot.effect));
       }
     }
-    for (const ForceSlot& slot : forces_) {
+    for (const ForceSlot& slot : plant.forces()) {
       if (slot.state >= 0 && slot.at_motor && slot.motor == m) {
         settle_force(slot, torque);
       }
     }
   }
-  for (const ForceSlot& slot : forces_) {
+  for (const ForceSlot& slot : plant.forces()) {
     if (slot.state >= 0 && !slot.at_motor) {
       std::fill_n(x + slot.state, slot.law->state_count(), 0.0);
     }
