@@ -6,8 +6,11 @@
 
 namespace plumbline::model {
 
-/// As those of Plant.
+/// At a state and command, with the rigid bodies' share of what is stored.
 Energetics energetics(PlantDynamics& plant, const double* x, const double* command);
+/// For the state and command that PlantDynamics::rate() was last called with, without the rigid bodies'
+/// share. What bristles take is booked as it goes: the energy in them scales with the load and leaves with
+/// it.
 Energetics powers(const PlantDynamics& plant, const double* x);
 
 }  // namespace plumbline::model

@@ -75,8 +75,8 @@ Eigen::MatrixXd arrived_commands(const model::Plant& plant, const Trial& trial) 
   for (int m = 0; m < plant.motors(); ++m) {
     const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
     for (Eigen::Index k = 0; k < trial.samples(); ++k) {
-      u(m, k) =
-          model::asked_torque(plant.model(), m, sent(m, std::max<Eigen::Index>(0, k - late))) / plant.torque_gain(m);
+      u(m, k) = model::asked_torque(plant.model(), m, sent(m, std::max<Eigen::Index>(0, k - late))) /
+                plant.torque_gain(m);
     }
   }
   return u;
