@@ -158,11 +158,21 @@ Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parame
                    const Eigen::VectorXd& theta, Grown* how_far) {
   ByParts found = by_parts(pool, parameters, theta);
   const std::vector<double> at_floor(found.reduced.size(), 0.0);  // squares: whatever is above it is lost
-  InitialStates(pool, parameters, {})
-      .settle_lost(at_floor, kRoughly, true, Point(found.at), found.at, found.reduced);
+  InitialStates states(pool, parameters, {});
+  const auto settle_lost = [&] {
+    states.settle_lost(at_floor, kRoughly, true, Point(found.at), found.at, found.reduced);
+  };
+  settle_lost();
   const std::vector<int> open = above_floor(pool.data(), found.reduced);
   begin_anew(pool, parameters, open, found.at, found.grown);
   grow(pool, parameters, open, found.grown, found.at);
+  if (!open.empty()) {  // the windows before them may be found by now
+    const std::vector<Reduced> grown = states.reduce_some(open, found.at);
+    for (const int w : open) {
+      found.reduced[static_cast<std::size_t>(w)] = grown[static_cast<std::size_t>(w)];
+    }
+    settle_lost();
+  }
   if (how_far != nullptr) {
     *how_far = std::move(found.grown);
   }
