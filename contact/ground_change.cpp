@@ -28,15 +28,16 @@ class OneChange final : public GroundChangeLaw {
 std::shared_ptr<const effects::Law> factor_on(const std::string& what, const std::string& of,
                                               double GroundChange::*changed) {
   return std::make_shared<const OneChange>(
-      effects::Declaration{"ground_" + what + "_error",
-                           "a ground whose " + what + " differs from the stated one",
-                           what + " = scale*" + of,
-                           "relative error of the law that the foot has: ground_normal or ground_friction",
-                           {effects::Place::foot},
-                           {effects::Parameter{"scale", "1", "true " + what + " over the stated one", 1.0,
-                                               0.01, 100.0, effects::Scale::linear, false}},
-                           {},
-                           ""},
+      effects::Declaration{
+          "ground_" + what + "_error",
+          "a ground whose " + what + " differs from the stated one",
+          what + " = scale*" + of,
+          "relative error of the law that the foot has: ground_normal, ground_friction or ground_coulomb",
+          {effects::Place::foot},
+          {effects::Parameter{"scale", "1", "true " + what + " over the stated one", 1.0, 0.01, 100.0,
+                              effects::Scale::linear, false}},
+          {},
+          ""},
       changed);
 }
 

@@ -1,6 +1,7 @@
 #include "contact/laws.h"
 
 #include "contact/ground_change.h"
+#include "contact/ground_coulomb.h"
 #include "contact/ground_friction.h"
 #include "contact/ground_normal.h"
 
@@ -10,6 +11,7 @@ namespace plumbline::contact {
 std::vector<std::shared_ptr<const effects::Law>> ground_laws() {
   return {std::make_shared<const GroundNormal>(),
           std::make_shared<const GroundFriction>(),
+          std::make_shared<const GroundCoulomb>(),
           ground_stiffness_error(),
           ground_damping_error(),
           ground_friction_error(),

@@ -5,8 +5,9 @@
 
 namespace plumbline::integrate {
 
-HeldCommands::HeldCommands(Eigen::MatrixXd samples, double period, const std::vector<double>& delays)
-    : samples_(std::move(samples)), period_(period) {
+HeldCommands::HeldCommands(Eigen::MatrixXd samples, double period, const std::vector<double>& delays,
+                           Eigen::VectorXd before)
+    : samples_(std::move(samples)), before_(std::move(before)), period_(period) {
   breaks_.push_back(0.0);
   for (const double delay : delays) {
     const double periods = delay / period_;
@@ -26,6 +27,9 @@ HeldCommands::HeldCommands(Eigen::MatrixXd samples, double period, const std::ve
 }
 
 double HeldCommands::sample(Eigen::Index motor, Eigen::Index k) const {
+  if (k < 0 && before_.size() > 0) {
+    return before_[motor];
+  }
   return samples_(motor, std::clamp<Eigen::Index>(k, 0, samples_.cols() - 1));
 }
 
@@ -44,6 +48,12 @@ void HeldCommands::mean(Eigen::Index k, double* command, double* slope) const {
     const double before = sample(m, k - whole_[i] - 1);
     command[m] = (1.0 - part_[i]) * now + part_[i] * before;
     slope[m] = (before - now) / period_;
+  }
+}
+
+void HeldCommands::before(double* command) const {
+  for (Eigen::Index m = 0; m < samples_.rows(); ++m) {
+    command[m] = sample(m, -1);
   }
 }
 

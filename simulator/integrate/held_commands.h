@@ -8,11 +8,13 @@ namespace plumbline::integrate {
 
 /// Sample k holds on [t_k, t_k + period); a motor with delay d sees it on [t_k + d, t_k + period + d).
 /// A delay that is not a whole number of samples breaks each sample in two: the breaks are where the
-/// integrator must stop. Before the first sample the first one holds.
+/// integrator must stop. Before the first sample holds what is said of it, or the first one.
 class HeldCommands {
  public:
-  /// samples: motors x N, in command units; delays: s, one for each motor.
-  HeldCommands(Eigen::MatrixXd samples, double period, const std::vector<double>& delays);
+  /// samples: motors x N, in command units; delays: s, one for each motor; before: what held for ever before
+  /// the first sample, of each motor; empty: the first sample's.
+  HeldCommands(Eigen::MatrixXd samples, double period, const std::vector<double>& delays,
+               Eigen::VectorXd before = {});
 
   /// Fractions of a period at which some command changes: sorted, the first is 0.
   const std::vector<double>& breaks() const { return breaks_; }
@@ -21,6 +23,8 @@ class HeldCommands {
   /// Mean over sample k, and its derivative with respect to each motor's delay (1/s).
   void mean(Eigen::Index k, double* command, double* slope) const;
 
+  /// Commands that held before the first sample.
+  void before(double* command) const;
   /// The command given at sample k, without delay.
   void held(Eigen::Index k, double* command) const;
 
@@ -38,6 +42,7 @@ class HeldCommands {
   double sample(Eigen::Index motor, Eigen::Index k) const;
 
   Eigen::MatrixXd samples_;
+  Eigen::VectorXd before_;
   double period_;
   std::vector<Eigen::Index> whole_;
   std::vector<double> part_;

@@ -25,7 +25,9 @@ CommandedRun run_commands(model::Plant& plant, const Eigen::VectorXd& x0, const 
   CommandedRun result = sized(plant, samples);
   Simulation simulation(plant, {options.integrator, period, options.energy, options.events});
   simulation.start(x0, t0);
-  if (samples > 0) {
+  if (options.before.size() > 0) {
+    simulation.hold_until_first_arrives(options.before);
+  } else if (samples > 0) {
     simulation.hold(commands.col(0));
   }
   Sensors exact(plant.model(), {false, false, 0});

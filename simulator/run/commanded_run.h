@@ -13,6 +13,9 @@ struct CommandedOptions {
   integrate::Options integrator;
   bool energy = true;  ///< integrate work and dissipation beside the motion
   bool events = true;  ///< locate the effects' switching functions
+  /// What was commanded before t0, of each motor; empty: the first commands have held for ever. The hidden
+  /// states in x0 are the caller's.
+  Eigen::VectorXd before{};
 };
 
 /// What a sampled controller is given and must fill: sample number, time, readings, and the command of each

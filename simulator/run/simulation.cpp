@@ -31,11 +31,20 @@ void Simulation::start(const Eigen::VectorXd& state, double t0) {
   t0_ = t0;
   samples_ = 0;
   accounted_ = false;
+  holds_another_ = false;
   integrator_.start(t0, all);
 }
 
 void Simulation::hold(const Eigen::VectorXd& command) {
   std::copy(command.data(), command.data() + command.size(), ode_.command());
+}
+
+void Simulation::hold_until_first_arrives(const Eigen::VectorXd& command) {
+  hold(command);
+  for (Eigen::Index k = 0; k < held_.samples(); ++k) {
+    held_.set(k, command.data());
+  }
+  holds_another_ = true;
 }
 
 void Simulation::measure() {
@@ -54,7 +63,7 @@ void Simulation::account(const Eigen::VectorXd& command) {
 
 void Simulation::advance(const Eigen::VectorXd& command) {
   const Eigen::Index newest = held_.samples() - 1;
-  for (Eigen::Index k = 0; samples_ == 0 && k <= newest; ++k) {
+  for (Eigen::Index k = 0; samples_ == 0 && !holds_another_ && k <= newest; ++k) {
     held_.set(k, command.data());
   }
   held_.push(command.data());

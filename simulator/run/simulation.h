@@ -28,10 +28,13 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Begins at t0. Where the model delays a command, the first one holds until it arrives.
+  /// Begins at t0. Where the model delays a command, the first one holds until it arrives, unless
+  /// another one is said to.
   void start(const Eigen::VectorXd& state, double t0 = 0.0);
   /// The command that held before the start, which accelerometers feel at the first sample; zero by itself.
   void hold(const Eigen::VectorXd& command);
+  /// Beside that: what holds where the model delays a command, until the first one arrives.
+  void hold_until_first_arrives(const Eigen::VectorXd& command);
   /// Looks at the present sample: outputs() and touches() are of it from now on.
   void measure();
   /// To the next sample, under a command for each motor (command units). Throws std::runtime_error when the
@@ -70,6 +73,7 @@ class Simulation {
   integrate::PlateMeans plates_;
   integrate::EnergyAccount energy_;
   bool accounted_ = false;
+  bool holds_another_ = false;  // until the first command arrives
   long samples_ = 0;
   Eigen::VectorXd outputs_;
   std::vector<model::Touch> touches_;

@@ -51,6 +51,10 @@ std::shared_ptr<const TangentialLaw> tangential_law() {
   return std::dynamic_pointer_cast<const TangentialLaw>(ground_laws()[1]);
 }
 
+std::shared_ptr<const TangentialLaw> coulomb_law() {
+  return std::dynamic_pointer_cast<const TangentialLaw>(ground_laws()[2]);
+}
+
 std::map<std::string, double> symbols_of(const Law& law, const Values& p) {
   std::map<std::string, double> symbols;
   for (std::size_t i = 0; i < p.size(); ++i) symbols[law.declaration().parameters[i].name] = p[i];
@@ -123,12 +127,15 @@ TEST_P(EveryGroundLaw, KnowsWhenItIsNull) {
   EXPECT_FALSE(law().is_null(random.parameters(law()).data()));
 }
 
-TEST(GroundLaws, AreTheNormalAndTheTangentialOneAndTheirErrors) {
-  ASSERT_EQ(ground_laws().size(), 6U);
+TEST(GroundLaws, AreTheNormalOneTheTangentialOnesAndTheirErrors) {
+  ASSERT_EQ(ground_laws().size(), 7U);
   ASSERT_TRUE(normal_law());
   ASSERT_TRUE(tangential_law());
   EXPECT_EQ(normal_law()->declaration().name, "ground_normal");
   EXPECT_EQ(tangential_law()->declaration().name, "ground_friction");
+  ASSERT_TRUE(coulomb_law());
+  EXPECT_EQ(coulomb_law()->declaration().name, "ground_coulomb");
+  EXPECT_EQ(coulomb_law()->state_count(), 0);
 }
 
 TEST(GroundLaws, ChangeNothingAtTheirNullValues) {
@@ -147,6 +154,9 @@ TEST(GroundLaws, ChangeNothingAtTheirNullValues) {
     Eigen::Vector2d rate_of_d;
     tangential_law()->state_rate(slip, 500.0, d.data(), tangential.data(), rate_of_d.data());
     EXPECT_TRUE(rate_of_d.allFinite());
+    const Values coulomb = coulomb_law()->null_values();
+    EXPECT_EQ(coulomb_law()->force(slip, 500.0, nullptr, coulomb.data()).norm(), 0.0);
+    EXPECT_EQ(coulomb_law()->dissipated_power(slip, 500.0, nullptr, coulomb.data()), 0.0);
   }
 }
 
@@ -188,6 +198,24 @@ TEST(GroundLaws, ComputeTheFrictionThatTheyWriteDown) {
     expect_close(force.y(), "f_y");
     expect_close(rate.x(), "bristle_x_rate");
     expect_close(rate.y(), "bristle_y_rate");
+  }
+}
+
+TEST(GroundLaws, ComputeTheCoulombFrictionThatTheyWriteDown) {
+  Random random;
+  const effects::Equations equations(coulomb_law()->declaration().equation);
+  for (int i = 0; i < 200; ++i) {
+    const Values p = random.parameters(*coulomb_law());
+    auto symbols = symbols_of(*coulomb_law(), p);
+    const Eigen::Vector2d slip = random.vector(i % 2 == 0 ? 2.0 : 0.01);
+    const double normal = i % 4 == 0 ? 0.0 : random.between(0, 900);
+    symbols["v_x"] = slip.x();
+    symbols["v_y"] = slip.y();
+    symbols["normal"] = normal;
+    const Eigen::Vector2d force = coulomb_law()->force(slip, normal, nullptr, p.data());
+    const double x = equations.value("f_x", symbols), y = equations.value("f_y", symbols);
+    EXPECT_NEAR(force.x(), x, 1e-11 * (1 + std::abs(x)));
+    EXPECT_NEAR(force.y(), y, 1e-11 * (1 + std::abs(y)));
   }
 }
 

@@ -68,5 +68,15 @@ TEST(GroundChange, ScalesTheFrictionOfSteadySliding) {
   EXPECT_NEAR(law->force(slip, 100.0, bent.data(), p.data()).x(), -100.0 * 1.4 * (0.5 + 0.1 * 0.8), 1e-9);
 }
 
+TEST(GroundChange, ScalesCoulombFrictionAndKeepsTheSpeedAtWhichItFades) {
+  const auto law = std::dynamic_pointer_cast<const TangentialLaw>(law_named("ground_coulomb"));
+  effects::Values p = values_of(*law, {{"friction", 0.3}, {"viscous", 0.1}, {"slip_speed", 0.02}});
+  law->apply(change_of("ground_friction_error", 1.4), p.data());
+  for (const double speed : {0.004, 0.8}) {
+    const double expected = -100.0 * 1.4 * (0.3 * std::tanh(speed / 0.02) + 0.1 * speed);
+    EXPECT_NEAR(law->force({0.0, speed}, 100.0, nullptr, p.data()).y(), expected, 1e-9) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::contact

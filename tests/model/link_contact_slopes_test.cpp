@@ -51,6 +51,22 @@ const char* const kLaws = R"(
     values: {height: {value: 0, unit: m, assumed: t}}
 )";
 
+const char* const kCoulombLaws = R"(
+  - effect: ground_normal
+    at: pair
+    values: {stiffness: {value: 2e6, unit: N, assumed: t}, damping: {value: 3e5, unit: N s/m, assumed: t}}
+  - effect: ground_coulomb
+    at: pair
+    values:
+      friction: {value: 0.8, unit: '1', assumed: t}
+      viscous: {value: 0.1, unit: s/m, assumed: t}
+      slip_speed: {value: 0.2, unit: m/s, assumed: t}
+      lateral: {value: 0.7, unit: '1', assumed: t}
+  - effect: ground_friction_error
+    at: pair
+    values: {scale: {value: 1, unit: '1', assumed: t}}
+)";
+
 const char* const kCrate = "{link: crate, value: [0, 0, 0], unit: m, box: [0.2, 0.16, 0.12]}";
 
 class LinkContactFile : public testing::Test {
@@ -99,8 +115,8 @@ Eigen::VectorXd pressed(Plant& plant, std::mt19937_64& random) {
   return x;
 }
 
-TEST_P(LinkContactSlopes, AreThoseOfTheRates) {
-  Plant plant(model(GetParam()), {});
+void expect_slopes_of_the_rates(Plant& plant, const std::vector<ParameterId>& parameters,
+                                const Eigen::Vector4d& steps) {
   const Eigen::Index n = plant.positions();
   ASSERT_EQ(n, 14);
   std::mt19937_64 random(7);
@@ -112,8 +128,6 @@ TEST_P(LinkContactSlopes, AreThoseOfTheRates) {
     }
     ASSERT_NEAR(deepest, 1e-3, 1e-9);
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(x.size());
-    const std::vector<ParameterId> parameters{{0, 0}, {0, 1}, {1, 2}, {2, 0}};
-    const Eigen::Vector4d steps(1.0, 1.0, 1e-6, 1e-9);
     Eigen::MatrixXd A, B;
     plant.tangent({x.data(), still.data(), nullptr, nullptr, 1e-3}, parameters, steps, true, A, B);
     const double largest = A.middleRows(n, n).cwiseAbs().maxCoeff();
@@ -139,6 +153,16 @@ TEST_P(LinkContactSlopes, AreThoseOfTheRates) {
       EXPECT_LT((B.col(p) - expected).norm(), 1e-4 * expected.norm()) << p;
     }
   }
+}
+
+TEST_P(LinkContactSlopes, AreThoseOfTheRates) {
+  Plant plant(model(GetParam()), {});
+  expect_slopes_of_the_rates(plant, {{0, 0}, {0, 1}, {1, 2}, {2, 0}}, {1.0, 1.0, 1e-6, 1e-9});
+}
+
+TEST_P(LinkContactSlopes, AreThoseOfTheRatesUnderCoulombFriction) {
+  Plant plant(model(GetParam(), kCoulombLaws), {});
+  expect_slopes_of_the_rates(plant, {{0, 0}, {0, 1}, {1, 0}, {2, 0}}, {1.0, 1.0, 1e-6, 1e-6});
 }
 
 INSTANTIATE_TEST_SUITE_P(

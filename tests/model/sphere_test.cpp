@@ -122,15 +122,9 @@ TEST_F(Spheres, ACubeStandsOnItsCorners) {
   EXPECT_NEAR(carried, 2.0 * kGravity, 1e-2);
 }
 
-/// Rates by differences beside the linearisation: a ball that rolls, slips and spins while it is pressed.
-TEST_F(Spheres, SlopesAreThoseOfTheRates) {
-  Plant plant(model(mjcf(kBall, kSlope),
-                    "{toe: {link: ball, value: [0.01, 0.02, -0.03], unit: m, radius: 0.08, assumed: test}}",
-                    ground("toe", 4e5, true)),
-              {});
+/// Rates by differences beside the linearisation, of a foot a millimetre deep that rolls, slips and spins.
+void expect_slopes_of_the_rates(Plant& plant, Eigen::VectorXd x) {
   const Eigen::Index n = plant.positions();
-  Eigen::VectorXd x(plant.states());
-  x << 0.1, 0.2, 0.0, 0.4, 0.3, -0.5, 0.3, -0.2, 0.1, 1.2, -0.7, 0.9, 1e-5, -2e-5;
   x[2] += plant.foot_depth(0, x.data()).depth - 1e-3;
   ASSERT_NEAR(plant.foot_depth(0, x.data()).depth, 1e-3, 1e-12);
   const auto rate = [&](const Eigen::VectorXd& at) {
@@ -139,10 +133,8 @@ TEST_F(Spheres, SlopesAreThoseOfTheRates) {
     return xdot;
   };
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(x.size());
-  const std::vector<ParameterId> parameters{{0, 0}, {1, 2}};
   Eigen::MatrixXd A, B;
-  plant.tangent({x.data(), still.data(), nullptr, nullptr, 1e-3}, parameters, Eigen::Vector2d(1.0, 1e-6),
-                true, A, B);
+  plant.tangent({x.data(), still.data(), nullptr, nullptr, 1e-3}, {}, Eigen::VectorXd(0), true, A, B);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double step = i < n ? 1e-8 : 1e-7;
     Eigen::VectorXd moved = x;
@@ -153,6 +145,30 @@ TEST_F(Spheres, SlopesAreThoseOfTheRates) {
     EXPECT_LT((A.col(i) - expected).norm(), 1e-5 * expected.norm() + 0.02)
         << plant.state_names()[static_cast<std::size_t>(i)] << ": " << expected.norm();
   }
+}
+
+const char* const kToe =
+    "{toe: {link: ball, value: [0.01, 0.02, -0.03], unit: m, radius: 0.08, assumed: test}}";
+
+TEST_F(Spheres, SlopesAreThoseOfTheRates) {
+  Plant plant(model(mjcf(kBall, kSlope), kToe, ground("toe", 4e5, true)), {});
+  Eigen::VectorXd x(plant.states());
+  x << 0.1, 0.2, 0.0, 0.4, 0.3, -0.5, 0.3, -0.2, 0.1, 1.2, -0.7, 0.9, 1e-5, -2e-5;
+  expect_slopes_of_the_rates(plant, x);
+}
+
+// Slipping fast, and within the speed at which the friction fades.
+TEST_F(Spheres, SlopesOfCoulombFrictionAreThoseOfTheRates) {
+  const std::string coulomb =
+      "  - effect: ground_coulomb\n    at: toe\n    values:\n"
+      "      friction: {value: 0.8, unit: '1', assumed: test}\n"
+      "      slip_speed: {value: 0.05, unit: m/s, assumed: test}\n";
+  Plant plant(model(mjcf(kBall, kSlope), kToe, ground("toe", 4e5, false) + coulomb), {});
+  Eigen::VectorXd x(plant.states());
+  x << 0.1, 0.2, 0.0, 0.4, 0.3, -0.5, 0.3, -0.2, 0.1, 1.2, -0.7, 0.9;
+  expect_slopes_of_the_rates(plant, x);
+  x.tail(6) << 0.02, -0.03, 0.01, 0.1, -0.05, 0.2;
+  expect_slopes_of_the_rates(plant, x);
 }
 
 TEST_F(Spheres, BadFeetAreRefusedInOneLine) {

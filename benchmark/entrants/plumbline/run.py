@@ -100,16 +100,13 @@ def effect_lines(case):
                      f"stiffness: {number(ground['stiffness']['value'], 'N')}, damping: {number(ground['damping']['value'], 'N s/m')}, "
                      f"exponent: {number(ground['exponent'], '1')}}}}}")
         if "friction" in ground:
-            lines.append(bristles(foot["name"], ground))
+            lines.append(friction(foot["name"], ground))
     return lines if len(lines) > 1 else []
 
 
-def bristles(foot, ground):
-    """The program's friction on bristles that gives way as the stated law does: the same level, the same slope at standstill."""
-    slope = ground["friction"]["value"] / ground["slip_scale"]["value"]
-    return (f"  - {{effect: ground_friction, at: {foot}, values: {{bristle_stiffness: {number(2000, '1/m')}, "
-            f"bristle_damping: {number(slope, 's/m')}, friction: {number(ground['friction']['value'], '1')}, "
-            f"relaxation: {number(0.001, 's')}}}}}")
+def friction(foot, ground):
+    return (f"  - {{effect: ground_coulomb, at: {foot}, values: {{friction: {number(ground['friction']['value'], '1')}, "
+            f"slip_speed: {number(ground['slip_scale']['value'], 'm/s')}}}}}")
 
 
 def sensor_lines(case):
@@ -124,10 +121,12 @@ def sensor_lines(case):
     return lines
 
 
-def trial_text(case, data, role):
+def trial_text(case, data, role, held):
+    """held: the robot was let go with the first row, its actuators without torque."""
+    before = ", before: {value: 0, unit: N m}" if held else ""
     lines = ["plumbline: trial/1", f"title: {os.path.basename(data)}", "model: ../model.yaml", f"role: {role}", f"data: {data}",
              "time: {column: t, unit: s}"] + ["commands:"] * bool(case.drives)
-    lines += [f"  {about['joint']}_motor: {{column: {name}, unit: N m}}" for name, about in case.columns.items()
+    lines += [f"  {about['joint']}_motor: {{column: {name}, unit: N m{before}}}" for name, about in case.columns.items()
               if about["is"] == "command"]
     lines.append("measured:")
     lines += [f"  {name}: {{column: {name}, unit: \"{about['unit']}\"}}" for name, about in case.columns.items()
@@ -154,7 +153,8 @@ def write_inputs(case, work):
         os.makedirs(folder, exist_ok=True)
         test = entry["role"] == "test"
         with open(os.path.join(folder, "trial.yaml"), "w", encoding="utf-8") as file:
-            file.write(trial_text(case, entry["file"], "train" if entry["role"] == "train" else "held-out"))
+            held = test or not case.about["id"].startswith("real_")
+            file.write(trial_text(case, entry["file"], "train" if entry["role"] == "train" else "held-out", held))
         if test:  # what is to be predicted is not there: the program begins where these constants say
             table = read_csv(os.path.join(case.folder, entry["file"]))
             held = {n: np.full(len(table["t"]), x) for n, x in start_row(case, entry["start"]).items()}

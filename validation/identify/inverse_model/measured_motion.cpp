@@ -71,11 +71,12 @@ Eigen::MatrixXd arrived_commands(const model::Plant& plant, const Trial& trial) 
   const Eigen::MatrixXd sent =
       integrate::on_clock_of_measurements(command_samples(plant.model(), trial.commands, trial.samples()),
                                           trial.period, integrate::command_clocks(plant));
+  const Eigen::VectorXd before = commands_before(plant.model(), trial.commands);
   Eigen::MatrixXd u = sent;
   for (int m = 0; m < plant.motors(); ++m) {
     const auto late = static_cast<Eigen::Index>(std::lround(plant.delay(m) / trial.period));
     for (Eigen::Index k = 0; k < trial.samples(); ++k) {
-      u(m, k) = model::asked_torque(plant.model(), m, sent(m, std::max<Eigen::Index>(0, k - late))) /
+      u(m, k) = model::asked_torque(plant.model(), m, k < late ? before[m] : sent(m, k - late)) /
                 plant.torque_gain(m);
     }
   }

@@ -69,6 +69,9 @@ Eigen::VectorXd Predictor::initial_state(const Window& window) {
   commands_->at(window.first, 0, command.data());
   // A stretch that no sensor sees begins where it is put, not as far inside as it might be.
   begin_inside(plant_, command.data(), from_channels_.deviations_unstretched(), trial_.period, x);
+  if (window.first == 0) {
+    commands_->before(command.data());
+  }
   plant_.settle(command.data(), x.data());
   return x;
 }

@@ -1,6 +1,7 @@
 // Normal equations of windows with their initial states eliminated.
 #include <utility>
 
+#include "validation/identify/predict/contact_changes.h"
 #include "validation/identify/predict/eliminate.h"
 #include "validation/identify/predict/estimate.h"
 #include "validation/identify/predict/spread.h"
@@ -34,7 +35,7 @@ Reduced reduce(Predictor& predictor, const Window& window, const Eigen::VectorXd
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows + nx, lin.Jp.cols());
   J.topRows(rows) = lin.Jp * slopes.asDiagonal();
   Eliminated left = eliminate(X, J, r);
-  out.curved = predictor.is_curved();
+  out.curved = predictor.is_curved() || do_contacts_change(predictor);
   out.expansion = predictor.expansion(window, lin.Jx);
   out.raw_sse = r.squaredNorm();
   out.sse = left.sse;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+
+#include "validation/identify/predict/contact_changes.h"
 
 namespace plumbline::validation {
 namespace {
@@ -87,6 +90,22 @@ void grow(const PredictorPool& pool, const std::vector<FreeParameter>& parameter
   }
 }
 
+/// Where its sensors show the window to begin: does a contact close or open in it? With switches windows are
+/// cut in the flights, and each knows its contacts.
+bool has_impacts(Predictor& predictor, const Trial& trial, const Window& window) {
+  if (!predictor.plant().meets_anything() || !trial.switches.empty()) {
+    return false;
+  }
+  try {
+    predictor.residual(window, predictor.search_start(window));
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return false;  // it cannot be followed
+  }
+  return do_contacts_change(predictor);
+}
+
 struct ByParts {
   Point at;
   Grown grown;
@@ -113,8 +132,20 @@ ByParts by_parts(PredictorPool& pool, const std::vector<FreeParameter>& paramete
 
 bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                  const Eigen::VectorXd& theta) {
+  const Data& data = pool.data();
   bool any = false;
-  pool.with(0, parameters, theta, [&](Predictor& predictor) { any = !predictor.plant().jumps().empty(); });
+  for (std::size_t w = 0; !any && w < data.windows.size(); ++w) {
+    const Window& window = data.windows[w];
+    bool meets_nothing = false;
+    pool.with(static_cast<int>(w), parameters, theta, [&](Predictor& predictor) {
+      meets_nothing = !predictor.plant().meets_anything();
+      any = !predictor.plant().jumps().empty() ||
+            has_impacts(predictor, data.trials[static_cast<std::size_t>(window.trial)], window);
+    });
+    if (meets_nothing) {
+      return any;
+    }
+  }
   return any;
 }
 
@@ -127,11 +158,21 @@ Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parame
                    const Eigen::VectorXd& theta, Grown* how_far) {
   ByParts found = by_parts(pool, parameters, theta);
   const std::vector<double> at_floor(found.reduced.size(), 0.0);  // squares: whatever is above it is lost
-  InitialStates(pool, parameters, {})
-      .settle_lost(at_floor, kRoughly, true, Point(found.at), found.at, found.reduced);
+  InitialStates states(pool, parameters, {});
+  const auto settle_lost = [&] {
+    states.settle_lost(at_floor, kRoughly, true, Point(found.at), found.at, found.reduced);
+  };
+  settle_lost();
   const std::vector<int> open = above_floor(pool.data(), found.reduced);
   begin_anew(pool, parameters, open, found.at, found.grown);
   grow(pool, parameters, open, found.grown, found.at);
+  if (!open.empty()) {  // the windows before them may be found by now
+    const std::vector<Reduced> grown = states.reduce_some(open, found.at);
+    for (const int w : open) {
+      found.reduced[static_cast<std::size_t>(w)] = grown[static_cast<std::size_t>(w)];
+    }
+    settle_lost();
+  }
   if (how_far != nullptr) {
     *how_far = std::move(found.grown);
   }

@@ -11,10 +11,10 @@ struct Grown {
   std::vector<Eigen::VectorXd> x0;
 };
 
-/// Initial states of windows with stops or play, the parameters as they are: fitted to short beginnings of
-/// the windows, then longer ones, each from where the one before ended. A window that is above the floor
-/// after that is also tried from the measurements at once, and the better is kept: a wrong model may fit a
-/// beginning in a way that leads nowhere.
+/// Initial states of windows with stops, play or impacts, the parameters as they are: fitted to short
+/// beginnings of the windows, then longer ones, each from where the one before ended. A window that is above
+/// the floor after that is also tried from the measurements at once, and the better is kept: a wrong model
+/// may fit a beginning in a way that leads nowhere.
 Point states_by_parts(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& theta);
 
@@ -28,7 +28,7 @@ Point grown_states(PredictorPool& pool, const std::vector<FreeParameter>& parame
 /// and play it need not explain a window to its end.
 Estimate rough_states(PredictorPool& pool);
 
-/// Has the model stops or play?
+/// Has the model stops or play, or impacts that no switch has recorded?
 bool has_corners(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                  const Eigen::VectorXd& theta);
 

@@ -105,6 +105,7 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
     options_.method = integrate::Method::rosenbrock;  // contacts are stiff
   }
   command_samples_ = command_samples(model, trial.commands, trial.samples());
+  commands_before_ = commands_before(model, trial.commands);
   refresh_commands();
 }
 
@@ -114,7 +115,7 @@ void Predictor::refresh_commands() {
       integrate::is_any_wrong(clocks)
           ? integrate::on_clock_of_measurements(command_samples_, trial_.period, clocks)
           : command_samples_,
-      trial_.period, plant_.delays());
+      trial_.period, plant_.delays(), commands_before_);
 }
 
 Eigen::MatrixXd Predictor::measured_positions() const {
@@ -169,7 +170,7 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   }
   measure_motion(from, window.first);
   Eigen::VectorXd command(plant_.motors());
-  commands_->at(is_warm ? 0 : from, 0, command.data());
+  is_warm || from == 0 ? commands_->before(command.data()) : commands_->at(from, 0, command.data());
   plant_.settle(command.data(), x);
   if (is_warm) {
     heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);

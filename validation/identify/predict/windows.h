@@ -242,6 +242,7 @@ class Predictor {
   Eigen::VectorXd floors_;
   model::PositionsFrom from_channels_;
   Eigen::MatrixXd command_samples_;
+  Eigen::VectorXd commands_before_;
   std::unique_ptr<integrate::HeldCommands> commands_;
   Eigen::VectorXd reading_command_;  // of the last reading
   std::vector<int> foot_of_switch_;

@@ -87,6 +87,7 @@ struct Beginning {
   Eigen::VectorXd x0;
   Eigen::MatrixXd commands;
   double time = 0.0, period = 1e-3;
+  Eigen::VectorXd before{};
 };
 
 Replay run(model::Plant& plant, const Beginning& start, TrialControllers* loops,
@@ -102,6 +103,7 @@ Replay run(model::Plant& plant, const Beginning& start, TrialControllers* loops,
   };
   run::CommandedOptions run_options;
   run_options.integrator = options.integrator;
+  run_options.before = start.before;
   const auto begin = std::chrono::steady_clock::now();
   Replay replay;
   run::Sensors sensors(plant.model(), {false, true, 0});  // without noise: a run is repeatable
@@ -135,7 +137,8 @@ Replay replay(const model::Model& model, const Trial& trial, const ReplayOptions
   Predictor predictor(model, trial, {});
   model::Plant& plant = predictor.plant();
   const Beginning start{state_at_start(predictor, trial, {0, 0, trial.samples()}),
-                        command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period};
+                        command_samples(model, trial.commands, trial.samples()), trial.time[0], trial.period,
+                        commands_before(model, trial.commands)};
   Replay result;
   if (options.closed_loop) {
     TrialControllers loops(plant, trial, start.x0);

@@ -92,7 +92,7 @@ class TrialReader {
     for (const CommandUse& use : file_.commands) {
       Signal signal = rows_of_column(use.column, true);
       trial_.commands.push_back(
-          {use.motor, use.column.name, signal.unit, grid_.held_mean(signal.values), {}});
+          {use.motor, use.column.name, signal.unit, grid_.held_mean(signal.values), {}, use.before});
     }
     for (const ControllerUse& use : file_.controllers) {
       read_controller(use);
@@ -259,6 +259,9 @@ class TrialReader {
       keep(first, count, record.values);
     }
     for (Command& command : trial_.commands) {
+      if (first > 0) {
+        command.before.reset();  // it was said of the recording's first row
+      }
       keep(first, count, command.values);
     }
     for (Controller& controller : trial_.controllers) {
@@ -354,6 +357,17 @@ Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Com
     const int motor = model.motor_index(command.motor);
     if (motor >= 0) {
       all.row(motor) = command.values.transpose();
+    }
+  }
+  return all;
+}
+
+Eigen::VectorXd commands_before(const model::Model& model, const std::vector<Command>& commands) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.motors.size()));
+  for (const Command& command : commands) {
+    const int motor = model.motor_index(command.motor);
+    if (motor >= 0 && command.values.size() > 0) {
+      all[motor] = command.before.value_or(command.values[0]);
     }
   }
   return all;

@@ -56,6 +56,8 @@ struct Command {
   std::string unit;
   Eigen::VectorXd values;  ///< in the motor's command unit (SI of it)
   std::string law{};       ///< where it was computed: by which law from what; empty: recorded
+  /// What held before the recording's first row; none: its first value.
+  std::optional<double> before{};
 };
 
 using model::Lock;
@@ -180,6 +182,9 @@ Trial read_trial(const std::string& path, const model::Model& model, const Trial
 /// Commands sample by sample, motors of the model x samples; zero for a motor without a command.
 Eigen::MatrixXd command_samples(const model::Model& model, const std::vector<Command>& commands,
                                 Eigen::Index samples);
+
+/// What each motor of the model was commanded before the first sample.
+Eigen::VectorXd commands_before(const model::Model& model, const std::vector<Command>& commands);
 
 /// Only the model file that a trial names (resolved relative to the trial), to read the model first.
 std::string model_of_trial(const std::string& path);

@@ -210,7 +210,12 @@ std::vector<CommandUse> read_commands(const YamlNode& node, const Model& model) 
   std::vector<CommandUse> uses;
   for (const auto& [motor, entry] : at_least_one(node, "motor")) {
     const std::string unit = known_motor(entry, motor, model).command_unit;
-    uses.push_back({motor, read_column(entry, unit, "the command of motor " + motor)});
+    const std::string owner = "the command of motor " + motor;
+    CommandUse use{motor, read_column(entry, unit, owner, {"before"})};
+    if (const auto before = entry.find("before")) {
+      use.before = read_physical(*before, unit, owner);
+    }
+    uses.push_back(std::move(use));
   }
   return uses;
 }

@@ -48,6 +48,7 @@ struct MeasuredUse {
 struct CommandUse {
   std::string motor;
   ColumnUse column;
+  std::optional<double> before{};
 };
 struct ControllerUse {
   Controller controller;  ///< without the recorded signals

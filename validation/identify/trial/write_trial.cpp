@@ -161,8 +161,13 @@ class TrialWriter {
     out_ << YAML::Key << "commands" << YAML::Value << YAML::BeginMap;
     for (const Command& command : trial_.commands) {
       out_ << YAML::Key << command.motor << YAML::Value;
-      column(or_else(command.column, "u_" + command.motor),
-             or_else(command.unit, command_unit(model_, command.motor)), command.values);
+      const std::string unit = command_unit(model_, command.motor);
+      begin_column(or_else(command.column, "u_" + command.motor), or_else(command.unit, unit),
+                   command.values);
+      if (command.before) {
+        quantity("before", *command.before, unit, "");
+      }
+      out_ << YAML::EndMap;
     }
     out_ << YAML::EndMap;
   }
