@@ -4,7 +4,8 @@
 Usage: make_cases.py --out DIR [--seed N | --secret-file FILE] [--set first|all] [--only TEXT] [--count N] [--prefix NAME] [--hashes FILE]
        make_cases.py --reveal SECRET [--out DIR] [--hashes FILE] [--case ID ...]
 
-first: each single effect at one strength; all: each at three. --only: machines or groups that contain the text.
+first: each single effect at one strength; all: each at three. --only: machines or groups that contain the text. The quadruped's cases need
+MuJoCo and a C compiler; without them one line says so, and the others are made.
 
 Sealed cases come from one secret of 32 hexadecimal digits (128 bits). The seed is HMAC-SHA256(secret, "seed"), the salt of a case
 HMAC-SHA256(secret, "salt ID"), which can be shown for one case alone. --hashes writes SHA-256(salt + truth.json) of every case, by which
@@ -206,7 +207,8 @@ def arguments():
     elif options.secret_file:
         with open(options.secret_file, encoding="utf-8") as file:
             options.secret = checked_secret(file.read().strip(), options.secret_file)
-    options.machines = sum(plan.BLOCKS, ())
+    # Of a secret only machines whose truths are the same letter by letter wherever they are made.
+    options.machines = tuple(machine for machine in sum(plan.BLOCKS, ()) if machine in MACHINES)
     if options.secret:
         options.seed = int(derived(options.secret, "seed"), 16)
     return options

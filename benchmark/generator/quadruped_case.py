@@ -103,11 +103,13 @@ def also_right(effects):
     return []
 
 
-def shows(world, numbers, log, record):
-    """By how many floors a whole recording's joint positions differ without what is hidden, under the same law: root mean square."""
-    _, _, targets, start = record
-    bare = world.run(numbers, [], start, targets)
-    return float(np.sqrt(np.mean((bare["q"] - log["q"]) ** 2)) / math.hypot(ENCODER[0] / math.sqrt(12.0), ENCODER[1]))
+def shows(world, numbers, logs, records):
+    """By how many floors joint positions of the train recordings, from their starts to their ends, differ without what is hidden, under the
+    same law: root mean square."""
+    squares = []
+    for log, (_, _, targets, start) in zip(logs, records):
+        squares.append(np.mean((world.run(numbers, [], start, targets)["q"] - log["q"]) ** 2))
+    return float(np.sqrt(np.mean(squares)) / math.hypot(ENCODER[0] / math.sqrt(12.0), ENCODER[1]))
 
 
 def make(world, out, identifier, entry, seed):
@@ -116,13 +118,13 @@ def make(world, out, identifier, entry, seed):
     effects = maker(rng)
     numbers = robot.true_numbers(rng)
     records = quadruped_motion.recordings(rng)
-    tables, first = {}, None
-    for name, _, targets, start in records:
+    tables, logs = {}, []
+    for name, role, targets, start in records:
         log = world.run(numbers, effects, start, targets)
-        first = log if first is None else first
+        logs += [log] if role == "train" else []
         tables[f"{name}.csv"] = readings(log, targets, rng)
     truth = {"id": identifier, "group": group, "strength": strength, "effects": effects, "numbers": numbers,
-             "shows": shows(world, numbers, first, records[0]) if effects else 0.0, "period": robot.PERIOD}
+             "shows": shows(world, numbers, logs, records) if effects else 0.0, "period": robot.PERIOD}
     others = also_right(effects)
     if others:
         truth["also_right"] = others

@@ -1,13 +1,20 @@
-/* The quadruped's world: MuJoCo's C interface under the PD law, read at the control's rate. Compiled by quadruped.py.
+/* The quadruped's world: MuJoCo's C interface under the PD law, read at the control's rate. Compiled by
+ * quadruped.py.
  *
  *   quadruped_world MODEL.xml NUMBERS TARGETS > LOG
  *
- * NUMBERS: sample (s), steps of a sample, position gain, velocity gain; then twelve numbers each, by motor: gain, delay (steps),
- * time constant of a lag (s, 0: none), level of dry friction; then a patch of friction: motor (-1: none), damping, centre,
- * width; then the ground: stiffness, damping, friction, impedance. TARGETS: a row of twelve positions for each sample.
- * LOG: for each sample 57 doubles: joint positions, joint speeds, the command that holds from there on, MuJoCo's ten sensors
- * (the command that held until then acting), the normal forces of the four feet, place and quaternion of the trunk.
- * The motors are the first twelve; feet are the geoms foot_0 to foot_3; the robot begins in the first keyframe, at rest. */
+ * NUMBERS: sample (s), steps of a sample, position gain, velocity gain; then twelve numbers each, by motor:
+ * gain, delay (steps), time constant of a lag (s, 0: none), level of dry friction; then a patch of friction:
+ * motor (-1: none), damping, centre, width; then the ground: stiffness, damping, friction, impedance.
+ *
+ * TARGETS: a row of twelve positions for each sample.
+ *
+ * LOG: for each sample 57 doubles: joint positions, joint speeds, the command that holds from there on,
+ * MuJoCo's ten sensors (the command that held until then acting), the normal forces of the four feet, place
+ * and quaternion of the trunk.
+ *
+ * The motors are the first twelve; feet are the geoms foot_0 to foot_3; the robot begins in the first
+ * keyframe, at rest. */
 #include <math.h>
 #include <mujoco/mujoco.h>
 #include <stdio.h>
@@ -30,8 +37,9 @@ static int fail(const char* what, const char* why) {
   return 2;
 }
 
-/* A contact's force is (s depth + b rate - impedance acceleration) / ((1 - impedance) A), s and b the negative numbers of
- * solref and A what MuJoCo takes for the inverse of the foot's mass. This gives the ground the stiffness and damping asked for. */
+/* A contact's force is (s depth + b rate - impedance acceleration) / ((1 - impedance) A), s and b the
+ * negative numbers of solref and A what MuJoCo takes for the inverse of the foot's mass. This gives the
+ * ground the stiffness and damping asked for. */
 static void set_ground(mjModel* m, const int* foot, const double* ground) {
   const double impedance = ground[3];
   for (int i = 0; i < kFeet; ++i) {
@@ -66,7 +74,8 @@ static void write_row(const mjModel* m, const mjData* d, const int* foot, const 
 }
 
 /* Torque of a motor at a step: the delayed command, times its gain, behind its lag. */
-static double torque(const Numbers* n, int i, long step, const double (*history)[kMotors], double* delivered) {
+static double torque(const Numbers* n, int i, long step, const double (*history)[kMotors],
+                     double* delivered) {
   const long at = step - lround(n->delay[i]);
   const double asked = at < 0 ? 0.0 : n->gain[i] * history[at % kMostLate][i];
   if (n->lag[i] <= 0.0) {
@@ -132,7 +141,7 @@ int main(int argc, char** argv) {
     for (int s = 0; s < (int)n.steps; ++s, ++step) {
       memcpy(history[step % kMostLate], command, sizeof command);
       for (int i = 0; i < kMotors; ++i) {
-        d->ctrl[i] = torque(&n, i, step, (const double (*)[kMotors])history, &delivered[i]);
+        d->ctrl[i] = torque(&n, i, step, (const double(*)[kMotors])history, &delivered[i]);
         d->qfrc_applied[6 + i] = friction(&n, i, d->qpos[7 + i], d->qvel[6 + i]);
       }
       mj_step(m, d);
