@@ -4,7 +4,8 @@
 Usage: make_cases.py --out DIR [--seed N | --secret-file FILE] [--set first|all] [--only TEXT] [--count N] [--prefix NAME] [--hashes FILE]
        make_cases.py --reveal SECRET [--out DIR] [--hashes FILE] [--case ID ...]
 
-first: each single effect at one strength; all: each at three. --only: machines or groups that contain the text.
+first: each single effect at one strength; all: each at three. --only: machines or groups that contain the text. The quadruped's cases need
+MuJoCo and a C compiler; without them one line says so, and the others are made.
 
 Sealed cases come from one secret of 32 hexadecimal digits (128 bits). The seed is HMAC-SHA256(secret, "seed"), the salt of a case
 HMAC-SHA256(secret, "salt ID"), which can be shown for one case alone. --hashes writes SHA-256(salt + truth.json) of every case, by which
@@ -24,7 +25,7 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from generator import files, motion, plan  # noqa: E402
+from generator import files, motion, plan, quadruped, quadruped_case  # noqa: E402
 from generator.machines import MACHINES  # noqa: E402
 from generator.world import PERIOD, World  # noqa: E402
 
@@ -120,24 +121,46 @@ def sources_hash():
     """Of the sources that decide over the cases: another generator makes other truths of the same secret."""
     whole, here = hashlib.sha256(), os.path.dirname(os.path.abspath(__file__))
     for name in sorted(os.listdir(os.path.join(here, "generator"))):
-        if name.endswith(".py"):
+        if name.endswith((".py", ".c")):
             with open(os.path.join(here, "generator", name), "rb") as file:
                 whole.update(file.read())
     return whole.hexdigest()
 
 
+class Foreign:
+    """The quadruped's world, made when it is asked for. Where MuJoCo is missing, one line says so and its cases are left out."""
+
+    def __init__(self):
+        self.world, self.missing = None, False
+
+    def make(self, out, identifier, entry, seed):
+        try:
+            self.world = self.world or (None if self.missing else quadruped.World())
+        except quadruped.Missing as error:
+            self.missing = True
+            print(f"The cases of the quadruped, from {identifier} on, are left out: {error} (Debian: libmujoco-dev, gcc).", file=sys.stderr)
+        return quadruped_case.make(self.world, out, identifier, entry, seed) if self.world else None
+
+    def close(self):
+        if self.world:
+            self.world.close()
+
+
 def make_all(options):
     """Makes the cases; returns the hashes of the truths."""
-    hashes = {}
+    hashes, foreign = {}, Foreign()
     for identifier, entry, seed in chosen(options):
         if options.case and identifier not in options.case:
             continue
-        truth = make(options.out, identifier, entry, seed)
+        truth = make(options.out, identifier, entry, seed) if entry[0] in MACHINES else foreign.make(options.out, identifier, entry, seed)
+        if truth is None:
+            continue
         salt = derived(options.secret, f"salt {identifier}") if options.secret else ""
         hashes[identifier] = hash_of(os.path.join(options.out, "truths", identifier, "truth.json"), salt)
         # What a secret hides is not for the screen.
         about = "sealed" if options.secret else f"{entry[0]} {entry[1]} shows {truth['shows']:.1f}"
         print(identifier, about, flush=True)
+    foreign.close()
     return hashes
 
 
@@ -184,7 +207,8 @@ def arguments():
     elif options.secret_file:
         with open(options.secret_file, encoding="utf-8") as file:
             options.secret = checked_secret(file.read().strip(), options.secret_file)
-    options.machines = sum(plan.BLOCKS, ())
+    # Of a secret only machines whose truths are the same letter by letter wherever they are made.
+    options.machines = tuple(machine for machine in sum(plan.BLOCKS, ()) if machine in MACHINES)
     if options.secret:
         options.seed = int(derived(options.secret, "seed"), 16)
     return options

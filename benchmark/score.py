@@ -107,7 +107,8 @@ def log_score(given, true):
 def prediction_error(folder, truth_folder, case):
     """Root mean square over the position columns of all test recordings, in floors; each value at most WORST."""
     squares = []
-    positions = {n: c.get("judged_in") or math.hypot(c["resolution"] / math.sqrt(12.0), c["noise"]) for n, c in case["columns"].items() if "noise" in c}
+    positions = {n: c.get("judged_in") or math.hypot(c["resolution"] / math.sqrt(12.0), c["noise"]) for n, c in case["columns"].items()
+                 if c["is"].endswith("position")}
     for entry in case["recordings"]:
         if entry["role"] != "test":
             continue

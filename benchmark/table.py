@@ -148,7 +148,7 @@ def page(root, results, cases, options, reasons):
     lines = ["# Naming a missing effect: the benchmark's table", "",
              f"{options.date}, version {options.version}. Definitions: [benchmark/README.md](../../benchmark/README.md). Written by `benchmark/table.py`.",
              f"All entrants were run on the same {count} of {total} simulated cases of seed {options.seed} (`make_cases.py --seed {options.seed}`) and on "
-             f"{len(cases) - count} of real machines, within the processor time that a case allows (120 s; 600 s for the arm of six joints), on a machine with two cores that did other work.",
+             f"{len(cases) - count} of real machines, within the processor time that a case allows (120 s; 600 s for the arm of six joints and the quadruped), on a machine with two cores that did other work.",
              *options.remarks, "", "## Where a rival is better", ""]
     worse = better(simulated, options.own, reasons)
     lines += table(["measure", "cases", "rival", options.own, "why"], worse) if worse else ["Nowhere."]
@@ -157,7 +157,7 @@ def page(root, results, cases, options, reasons):
         lines += ["", "## Real machines", ""] + standing(real, order(real))
     lines += split_tables(simulated, names) + ["", "## Confidences", ""] + reliability(simulated, names)
     shown = [e for e in names if e != "says_nothing"]
-    lines += ["", "## Case by case", "", "*shows*: floors at joint positions over a quarter of a second. Names of one slot are parted by a stroke.", ""]
+    lines += ["", "## Case by case", "", "*shows*: floors at joint positions over a quarter of a second (quadruped: over whole recordings, its control at work). Names of one slot are parted by a stroke.", ""]
     return lines + table(["case", "machine", "hidden", "shows"] + shown, case_rows(root, cases, shown))
 
 

@@ -164,8 +164,10 @@ def write_json(path, content):
 
 
 def write_recording(path, case, table, withheld, period):
-    """table: by column's name. Of a test recording only time and commands are written."""
-    names = [n for n, c in case["columns"].items() if not withheld or c["is"] == "command"]
+    """table: by column's name. Of a test recording only time and what the robot was told is written: targets, or else commands."""
+    kinds = [c["is"] for c in case["columns"].values()]
+    told = "target" if "target" in kinds else "command"
+    names = [n for n, c in case["columns"].items() if not withheld or c["is"] == told]
     units = [("t", "s")] + [(n, case["columns"][n]["unit"]) for n in names]
     count = len(next(iter(table.values())))
     write_csv(path, units, np.column_stack([np.arange(count) * period] + [table[n] for n in names]))

@@ -71,6 +71,17 @@ SINGLES = {
         ("load_friction", "hip", {"coefficient": 0.12}, "coefficient"),
         ("hard_stop", "knee", {"position": 0.6, "stiffness": 300.0, "damping": 2.0}, "0-position"),
     ],
+    "quadruped": [
+        ("payload", "trunk", {"mass": 3.0, "x": 0.12, "y": 0.05, "z": 0.07}, "mass"),
+        ("viscous_friction", "fr_knee", {"damping": 1.4}, "damping"),
+        ("coulomb_friction", "rl_hip", {"level": 4.0}, "level"),
+        ("actuator_delay", "rl_leg", {"delay": 0.006}, "delay"),
+        ("actuator_lag", "fl_hip", {"time_constant": 0.008}, "time_constant"),
+        ("rotor_inertia", "rr_knee", {"inertia": 0.05}, "inertia"),
+        ("ground_stiffness", "floor", {"scale": 0.4}, "1+scale"),
+        ("ground_friction", "floor", {"scale": 0.5}, "1+scale"),
+        ("torque_gain", "fr_hip", {"gain": 1.8}, "1+gain"),
+    ],
 }
 
 PAIRS = {
@@ -79,6 +90,7 @@ PAIRS = {
     "hopper": [(0, 3), (5, 1), (7, 2), (6, 4)],
     "cube": [(0, 4), (2, 8), (3, 7), (6, 1)],
     "leg": [(0, 2), (6, 7), (4, 1), (8, 5)],
+    "quadruped": [(0, 1)],
 }
 
 OUTSIDE = {
@@ -102,10 +114,14 @@ OUTSIDE = {
             ("latch", "hip", {"pull": 0.9, "center": -0.2, "width": 0.08}),
             ("absorber", "knee", {"inertia": 0.006, "stiffness": 1.5, "damping": 0.01}),
             ("fading", "hip", {"loss": 0.5, "time": 1.2})],
+    "quadruped": [("patch_friction", "fl_knee", {"damping": 8.0, "center": -1.75, "width": 0.08}),
+                  ("absorber", "trunk", {"mass": 0.8, "stiffness": 290.0, "damping": 2.0, "x": -0.1, "y": 0.03, "z": 0.07})],
 }
 
+NOTHING = {"quadruped": (2, 2)}  # cases without an effect in the first set and in all; of the others 3 and 6
+
 # Machines in the order in which they came: numbers of the cases that were there before stay.
-BLOCKS = (("pendulum", "arm", "hopper"), ("cube",), ("leg",))
+BLOCKS = (("pendulum", "arm", "hopper"), ("cube",), ("leg",), ("quadruped",))
 
 
 def scaled(values, rule, strength, rng):
@@ -145,7 +161,7 @@ def entries(everything, machines):
             if everything or index < 3:
                 yield machine, "pair", "medium", lambda rng, p=(singles[one], singles[other]): [
                     effect(s, "medium", rng) for s in p]
-        for index in range(6 if everything else 3):
+        for index in range(NOTHING.get(machine, (3, 6))[everything]):
             yield machine, "nothing", "", lambda rng: []
         for index, (kind, place, values) in enumerate(OUTSIDE[machine]):
             if everything or index < 3:

@@ -13,7 +13,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from common import write_answer  # noqa: E402
+from common import left_out, write_answer  # noqa: E402
 from regression import Problem, at_joint, numbers_terms, of_body, sign, write_predictions  # noqa: E402
 
 STRIDE = 20  # samples; neighbours within the smoothing window say the same
@@ -164,6 +164,8 @@ def slot(fit, taken, name, columns, library, values, errors):
 
 
 def main(folder, out):
+    if left_out(folder, out):
+        return
     os.makedirs(out, exist_ok=True)
     problem = Problem(folder)
     fit, final, library = Fit(problem, "train", False), Fit(problem, "train", True), candidates(problem)

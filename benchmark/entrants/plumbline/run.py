@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as xml
 
 import numpy as np
 
@@ -24,7 +25,7 @@ KINDS = {
     "gear_friction": "load_friction", "quadratic": "quadratic_drag", "backlash": "backlash", "cable_stretch": "elastic_drive",
     "spring": "spring", "preload": "constant_force", "torque_bias": "constant_force", "hardening": "nonlinear_spring",
     "unilateral_spring": "nonlinear_spring", "hard_stop": "hard_stop", "cogging": "torque_ripple",
-    "torque_constant_error": "torque_gain", "actuator_lag": "actuator_lag", "command_delay": "actuator_delay",
+    "torque_constant_error": "torque_gain", "actuator_lag": "actuator_lag", "command_delay": "actuator_delay", "bus_delay": "actuator_delay",
     "rotor_inertia": "rotor_inertia", "added_mass": "payload", "payload": "payload", "com_shift": "center_of_mass",
     "gravity_tilt": "gravity_tilt", "encoder_offset": "sensor_offset", "encoder_scale": "sensor_gain",
     "switch_lateness": "switch_delay", "ground_stiffness_error": "ground_stiffness", "ground_damping_error": "ground_damping",
@@ -75,8 +76,28 @@ def model_text(case):
 
 
 def feet_lines(case):
+    """Spheres share their ground's laws as a group; points have one each."""
     feet = case.about["feet"]
-    return ["feet:"] * bool(feet) + [f"  {f['name']}: {{link: {f['link']}, value: {f['point']}, unit: m, {WHY}}}" for f in feet]
+    return ["feet:"] * bool(feet) + [f"  {f['name']}: {{link: {f['link']}, value: {f['point']}, unit: m, "
+                                     + (f"radius: {f['radius']}, group: {f['place']}, " if "radius" in f else "") + f"{WHY}}}" for f in feet]
+
+
+def sphere_lines(case):
+    """The stated law in the program's numbers: at its reference depth, the one under the feet's share of the weight, it has the stated
+    stiffness and damping. Such feet hold: bristles that hardly bend."""
+    lines = []
+    for place, foot in {foot["place"]: foot for foot in case.about["feet"] if "radius" in foot}.items():
+        ground = foot["ground"]
+        weight = case.about["gravity"]["value"] * sum(mass["value"] for mass in case.about["masses"].values())
+        depth = weight / len(case.about["feet"]) / ground["stiffness"]["value"]
+        stiffness = {key: depth * ground["stiffness"][key] for key in ("value", "standard_deviation")}
+        damping, friction = ground["damping"], ground["friction"]
+        lines += [f"  - {{effect: ground_normal, at: {place}, values: {{stiffness: {number(stiffness['value'], 'N', stiffness['standard_deviation'])}, "
+                  f"damping: {number(damping['value'], 'N s/m', damping['standard_deviation'])}, exponent: {number(1, '1')}, "
+                  f"reference_depth: {number(depth, 'm')}}}}}",
+                  f"  - {{effect: ground_friction, at: {place}, values: {{bristle_stiffness: {number(20000, '1/m')}, bristle_damping: {number(10, 's/m')}, "
+                  f"friction: {number(friction['value'], '1', friction['standard_deviation'])}}}}}"]
+    return lines
 
 
 def effect_lines(case):
@@ -94,7 +115,8 @@ def effect_lines(case):
         lines.append(f"  - {{effect: spring, at: {spring['joint']}, values: {{"
                      f"stiffness: {number(stiffness['value'], stiffness['unit'], stiffness['standard_deviation'])}, "
                      f"rest: {number(rest['value'], rest['unit'])}}}}}")
-    for foot in case.about["feet"]:
+    lines += sphere_lines(case)
+    for foot in (foot for foot in case.about["feet"] if "radius" not in foot):
         ground = foot["ground"]
         lines.append(f"  - {{effect: ground_normal, at: {foot['name']}, values: {{"
                      f"stiffness: {number(ground['stiffness']['value'], 'N')}, damping: {number(ground['damping']['value'], 'N s/m')}, "
@@ -114,11 +136,25 @@ def sensor_lines(case):
     for name, about in case.columns.items():
         if about["is"] == "contact switch":
             lines.append(f"  {name}: {{contact: {about['foot']}, {WHY}}}")
-        elif about["is"] != "command":
+        elif about["is"].endswith("position"):
             what = about["joint"] + ("_motor" if about["is"] == "motor position" else "")
             lines.append(f"  {name}: {{measures: {what}, resolution: {number(about['resolution'], about['unit'])}, "
                          f"noise: {number(about['noise'], about['unit'])}, {WHY}}}")
+    for kind, names in inertial(case).items():
+        about = case.columns[names[0]]
+        at = f"at: {{value: {about['point']}, unit: m}}, " if kind == "accelerometer" else ""
+        noise = number(about["noise"], "rad" if kind == "orientation" else about["unit"])
+        lines.append(f"  imu_{kind}: {{{kind}: {about['link']}, {at}noise: {noise}, {WHY}}}")
     return lines
+
+
+def inertial(case):
+    """Columns of the inertial unit by what they are, in the order of their components."""
+    out = {}
+    for name, about in case.columns.items():
+        if about["is"].startswith("imu "):
+            out.setdefault(about["is"].removeprefix("imu "), []).append(name)
+    return out
 
 
 def trial_text(case, data, role, held):
@@ -130,13 +166,37 @@ def trial_text(case, data, role, held):
               if about["is"] == "command"]
     lines.append("measured:")
     lines += [f"  {name}: {{column: {name}, unit: \"{about['unit']}\"}}" for name, about in case.columns.items()
-              if about["is"] != "command"]
+              if about["is"].endswith("position") or about["is"] == "contact switch"]
+    lines += [f"  imu_{kind}: {{columns: [{', '.join(names)}], unit: \"{case.columns[names[0]]['unit']}\"}}" for kind, names in inertial(case).items()]
     return "\n".join(lines) + "\n"
 
 
-def start_row(case, start):
+def closed_loop_text(case, data):
+    """A trial to predict whose commands follow from the control's law, here a cascade of the same gains; the recorded commands beside it are
+    zeros that nobody uses. Its readings are not rounded: the law knows the joints themselves."""
+    law = case.about["control"]
+    damping, stiffness = law["velocity_gain"], law["position_gain"]
+    text = trial_text(case, data, "held-out")
+    head, measured = text[:text.index("measured:")], text[text.index("measured:"):]
+    for name, about in case.columns.items():
+        if about["is"] == "joint position":
+            measured = measured.replace(f"column: {name},", f"column: {name}, resolution: {number(1e-9, about['unit'])},")
+    lines = ["controllers:"]
+    for name, about in case.columns.items():
+        if about["is"] == "target":
+            lines.append(f"  - {{kind: cascade_pd, motor: {about['joint']}_motor, sensor: q_{about['joint']}, reference: {{column: {name}, unit: {about['unit']}}}, "
+                         f"position_gain: {number(stiffness['value'] / damping['value'], '1/s')}, "
+                         f"velocity_gain: {number(damping['value'], damping['unit'])}}}")
+    return head + "\n".join(lines) + "\n" + measured
+
+
+def start_row(case, entry):
     """What the sensors read of a robot that is held at its start, with its feet in the air."""
-    row = {name: 0.0 for name, about in case.columns.items() if about["is"] == "contact switch"}
+    start, row = entry["start"], {name: 0.0 for name, about in case.columns.items() if about["is"] == "contact switch"}
+    for kind, names in inertial(case).items():
+        rest = {"orientation": entry["start_base"]["orientation"], "gyroscope": [0.0] * 3,
+                "accelerometer": [0.0, 0.0, case.about["gravity"]["value"]]}[kind]  # a base that is level
+        row |= dict(zip(names, rest))
     return {**row, **{name: start[about["joint"]] * (case.drives[about["joint"]]["ratio"]["value"]
                                            if about["is"] == "motor position" else 1.0)
             for name, about in case.columns.items() if name in case.positions()}}
@@ -153,13 +213,15 @@ def write_inputs(case, work):
         os.makedirs(folder, exist_ok=True)
         test = entry["role"] == "test"
         with open(os.path.join(folder, "trial.yaml"), "w", encoding="utf-8") as file:
-            held = test or not case.about["id"].startswith("real_")
-            file.write(trial_text(case, entry["file"], "train" if entry["role"] == "train" else "held-out", held))
+            held = "control" not in case.about and (test or not case.about["id"].startswith("real_"))
+            file.write(closed_loop_text(case, entry["file"]) if test and "control" in case.about
+                       else trial_text(case, entry["file"], "train" if entry["role"] == "train" else "held-out", held))
         if test:  # what is to be predicted is not there: the program begins where these constants say
             table = read_csv(os.path.join(case.folder, entry["file"]))
-            held = {n: np.full(len(table["t"]), x) for n, x in start_row(case, entry["start"]).items()}
+            held = {n: np.full(len(table["t"]), x) for n, x in start_row(case, entry).items()}
             units = {n: case.columns[n] for n in case.columns}
-            body = {n: table[n] for n in table if n != "t"}
+            idle = {n: np.zeros(len(table["t"])) for n in case.columns if case.columns[n]["is"] == "command" and n not in table}
+            body = {n: table[n] for n in table if n != "t"} | idle
             write_prediction(folder, entry["file"], table["t"], {**body, **held}, units)
             asked[entry["file"]] = folder
         else:
@@ -171,6 +233,19 @@ def write_inputs(case, work):
 def place_of(case, at):
     places = {foot["name"]: foot.get("place", foot["name"]) for foot in case.about["feet"]}
     return "base" if at == "world" else places.get(at, at.removesuffix("_motor"))
+
+
+def limb_of(case, at):
+    """The program names a limb by its first link."""
+    root = xml.parse(os.path.join(case.folder, "robot.urdf")).getroot()
+    first = {joint.get("name"): joint.find("child").get("link") for joint in root.findall("joint")}
+    return next((limb for limb, joints in case.about.get("limbs", {}).items() if first[joints[0]] == at), place_of(case, at))
+
+
+def name_of(case, effect):
+    """(kind, place) of what the program says."""
+    at = effect["at"]
+    return KINDS.get(effect["effect"], "other"), limb_of(case, at) if effect["effect"] == "bus_delay" else place_of(case, at)
 
 
 def values_of(case, kind, at, parameters):
@@ -192,13 +267,13 @@ def translate(case, result):
     verdict = {"missing": "found", "nothing_missing": "nothing", "unexplained": "outside"}[result["verdict"]]
     slots = []
     for accepted in result["accepted"]:
-        kind, place = KINDS.get(accepted["effect"], "other"), place_of(case, accepted["at"])
+        kind, place = name_of(case, accepted)
         if (kind, place) in [(n[0]["kind"], n[0]["place"]) for n in slots]:
             continue  # the same ground at another corner
         share = min(0.95, max(0.05, accepted["selected_share"]))
         names = [{"kind": kind, "place": place, "confidence": share,
                   "values": values_of(case, kind, accepted["at"], accepted["parameters"])}]
-        rivals = [(KINDS.get(rival["effect"], "other"), place_of(case, rival["at"])) for rival in accepted["rivals"]]
+        rivals = [name_of(case, rival) for rival in accepted["rivals"]]
         rivals = [name for name in rivals if name == (kind, place) or name in case.allowed]
         for rival in rivals:  # laws of one kind share a name
             one = next((n for n in names if (n["kind"], n["place"]) == rival), None)
@@ -218,7 +293,8 @@ def translate(case, result):
 def predict(case, program, asked, model, out):
     for name, folder in asked.items():
         trace = os.path.join(folder, "trace.csv")
-        done = subprocess.run([program, "simulate", folder, "--model", model, "-o", trace], capture_output=True, text=True)
+        loop = ["--closed-loop"] if "control" in case.about else []
+        done = subprocess.run([program, "simulate", folder, "--model", model, "-o", trace, *loop], capture_output=True, text=True)
         if done.returncode == 0:
             table = read_csv(trace)
             write_prediction(out, name, table["t"], {c: table[f"q_{c}"] for c in case.positions()}, case.columns)
@@ -257,7 +333,9 @@ def main():
     model = os.path.join(work, "model.yaml")
     predict(case, options.program, asked, model, options.out)  # should the time end: the model as it was given
     write_answer(options.out, case, "nothing", [], otherwise=0.02)
-    diagnose([options.program, "diagnose", *given, "--json", result, "--save", found], case.about["seconds_allowed"])
+    # A robot that stands on its feet: few windows, short as its contacts are.
+    windows = ["--window", "0.25", "--windows", "4"] if "floating_base" in case.about else []
+    diagnose([options.program, "diagnose", *given, *windows, "--json", result, "--save", found], case.about["seconds_allowed"])
     with open(result, encoding="utf-8") as file:
         verdict, slots = translate(case, json.load(file))
     write_answer(options.out, case, verdict, slots)

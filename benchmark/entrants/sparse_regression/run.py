@@ -15,7 +15,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from common import write_answer  # noqa: E402
+from common import left_out, write_answer  # noqa: E402
 from regression import Problem, at_joint, numbers_terms, sign, write_predictions  # noqa: E402
 
 STRIDE = 10
@@ -165,6 +165,8 @@ def names_of_joint(library, columns, values, shares, spread):
 
 
 def main(folder, out):
+    if left_out(folder, out):
+        return
     os.makedirs(out, exist_ok=True)
     problem, rng = Problem(folder), np.random.default_rng(1)
     slots, terms, values = [], [], []
