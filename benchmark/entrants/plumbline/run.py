@@ -176,7 +176,7 @@ def closed_loop_text(case, data):
     zeros that nobody uses. Its readings are not rounded: the law knows the joints themselves."""
     law = case.about["control"]
     damping, stiffness = law["velocity_gain"], law["position_gain"]
-    text = trial_text(case, data, "held-out")
+    text = trial_text(case, data, "held-out", held=False)
     head, measured = text[:text.index("measured:")], text[text.index("measured:"):]
     for name, about in case.columns.items():
         if about["is"] == "joint position":
