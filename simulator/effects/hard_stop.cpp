@@ -17,7 +17,8 @@ enum Index : std::size_t {
   kSide,
   kRootSpeed,
   kRounding,
-  kStiffness
+  kStiffness,
+  kPulls
 };
 
 double penetration(const Motion& m, const double* p) { return p[kSide] * (m.position - p[kPosition]); }
@@ -28,16 +29,23 @@ double damping_force(double rate, const double* p) {
   return p[kDamping] * rate + p[kRootDamping] * (root - std::sqrt(p[kRounding] / p[kRootSpeed]));
 }
 
+// Against a penetration d that grows at `rate`, were the surfaces glued.
+double push(double d, double rate, const double* p) {
+  return p[kStiffness] * d + p[kCubicStiffness] * d * d * d + damping_force(rate, p);
+}
+
+// Of the glued surfaces' pull, what they do not pull.
+double let_go(double push, const double* p) { return std::max(push, -p[kPulls] * std::abs(push)) - push; }
+
 }  // namespace
 
 const Declaration& HardStop::declaration() const {
   static const Declaration kDeclaration{
       "hard_stop",
       "a stiff, damped contact beyond a position",
-      "f = -side*(stiffness*d + cubic_stiffness*d^3 + damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + "
-      "rounding)/root_speed) - sqrt(rounding/root_speed))) if d > 0 else 0; d = side*(x - position); d_rate "
-      "= "
-      "side*v",
+      "f = -side*max(push, -pulls*|push|) if d > 0 else 0; push = stiffness*d + cubic_stiffness*d^3 + "
+      "damping*d_rate + root_damping*(sqrt((max(d_rate, 0) + rounding)/root_speed) - "
+      "sqrt(rounding/root_speed)); d = side*(x - position); d_rate = side*v",
       "Park, Sreenath, Hurst and Grizzle, Identification of a Bipedal Robot with a Compliant Drivetrain, "
       "IEEE Control Systems Magazine 31(2), 2011, equation 28 (branches of the stop) and Table VIII",
       {Place::coordinate},
@@ -49,7 +57,10 @@ const Declaration& HardStop::declaration() const {
              kInfinity),
        fixed("rounding", "{position}/s",
              "speed by which the root begins earlier, so that its slope is finite", 0.0, 0.0, kInfinity),
-       non_negative("stiffness", "{force}/{position}", "linear stiffness")},
+       non_negative("stiffness", "{force}/{position}", "linear stiffness"),
+       fixed("pulls", "1",
+             "1: damping may pull on what leaves the stop, as in equation 28; 0: it never pulls", 0.0, 0.0,
+             1.0)},
       {},
       ""};
   return kDeclaration;
@@ -64,7 +75,8 @@ Values HardStop::typical(const Scales& scales) const {
           1.0,
           1.0,
           1e-3 * s.velocity,
-          s.force / s.position};
+          s.force / s.position,
+          1.0};
 }
 
 std::vector<Values> HardStop::starts(const Scales& scales) const {
@@ -88,8 +100,8 @@ bool HardStop::is_null(const double* p) const {
 double HardStop::force(const Motion& m, const double* /*state*/, const double* p) const {
   const double d = penetration(m, p);
   if (d <= 0.0) return 0.0;
-  return -p[kSide] *
-         (p[kStiffness] * d + p[kCubicStiffness] * d * d * d + damping_force(p[kSide] * m.velocity, p));
+  const double glued = push(d, p[kSide] * m.velocity, p);
+  return -p[kSide] * (glued + let_go(glued, p));
 }
 
 double HardStop::stored_energy(const Motion& m, const double* /*state*/, const double* p) const {
@@ -98,17 +110,20 @@ double HardStop::stored_energy(const Motion& m, const double* /*state*/, const d
 }
 
 double HardStop::dissipated_power(const Motion& m, const double* /*state*/, const double* p) const {
-  if (penetration(m, p) <= 0.0) return 0.0;
+  const double d = penetration(m, p);
+  if (d <= 0.0) return 0.0;
   const double rate = p[kSide] * m.velocity;
-  return damping_force(rate, p) * rate;
+  return (damping_force(rate, p) + let_go(push(d, rate, p), p)) * rate;
 }
 
 void HardStop::switches(const Motion& m, const double* p, std::vector<double>& g) const {
   const double d = penetration(m, p);
   g.push_back(d);
   // The root's slope is unbounded where motion turns, unless it is rounded; outside the stop that is of no
-  // interest. (Both change sign together where motion leaves the stop.)
+  // interest. (All change sign together where motion leaves the stop.)
   g.push_back(d > 0.0 && p[kRounding] <= 0.0 ? p[kSide] * m.velocity : 1.0);
+  // Surfaces that do not pull part when this falls through zero: the force bends there, and does not jump.
+  g.push_back(d > 0.0 && p[kPulls] < 1.0 ? push(d, p[kSide] * m.velocity, p) : 1.0);
 }
 
 int HardStop::jumps(const double* p) const { return p[kDamping] > 0.0 || p[kRootDamping] > 0.0 ? 1 : 0; }

@@ -153,7 +153,8 @@ TEST(Blind, ConstantsOfWhichTheToleranceIsStatedAreNotNamed) {
 
 TEST(Blind, StopInsideTheHoppersRangeIsLookedFor) {
   const Diagnosis found = diagnosed(
-      hopper(), {"hard_stop@height:cubic_stiffness=2.4e5,damping=2,root_damping=0.3,position=0.44,side=1"});
+      hopper(),
+      {"hard_stop@height:cubic_stiffness=2.4e5,damping=2,root_damping=0.3,position=0.44,side=1,pulls=0"});
   EXPECT_GT(found.candidates, 0) << validation::summary(found);
   EXPECT_THAT(names(found), testing::HasSubstr("hard_stop@height")) << validation::summary(found);
 }

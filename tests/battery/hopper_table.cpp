@@ -53,7 +53,7 @@ const std::vector<Row>& hopper_rows() {
        "stiffness=0.5|1.4|4.1,preload=0.0075|0.02|0.061,rest=0.38,side=-1,smoothing_length=0.001"},
       {"hard_stop", "height",
        "cubic_stiffness=1e4|2.8e4|2.4e5,damping=0.084|0.23|2,root_damping=0.013|0.034|0.3,position=0.44,side="
-       "1"},
+       "1,pulls=0"},
       {"hysteresis", "carriage", "loss=1.6|4.3|13,rest=0,smoothing_speed=0.001"},
       {"spring", "carriage", "stiffness=48|100|200,rest=0.02"},
       {"preload", "carriage", "preload=0.016|0.043|0.13"},
@@ -62,7 +62,7 @@ const std::vector<Row>& hopper_rows() {
        "stiffness=3.1|8.3|33,preload=0.028|0.075|0.3,rest=0.01,side=1,smoothing_length=0.001"},
       {"hard_stop", "carriage",
        "cubic_stiffness=6.5e4|1.8e5|5.3e5,damping=0.12|0.32|0.95,root_damping=0.017|0.048|0.14,position=0.02,"
-       "side=1"},
+       "side=1,pulls=0"},
       {"hysteresis", "spring", "loss=3.6|9.9|30,rest=0,smoothing_speed=0.001"},
       {"spring", "spring", "stiffness=240|500|1000,rest=0.02"},
       {"preload", "spring", "preload=0.061|0.17|0.5"},
@@ -71,7 +71,7 @@ const std::vector<Row>& hopper_rows() {
        "stiffness=4.5|12|37,preload=0.027|0.073|0.22,rest=0.01,side=1,smoothing_length=0.001"},
       {"hard_stop", "spring",
        "cubic_stiffness=4.6e4|1.7e5|5.1e5,damping=0.024|0.09|0.27,root_damping=0.0036|0.014|0.041,position=0."
-       "02,side=1"},
+       "02,side=1,pulls=0"},
       {"current_loop", "drive", "time_constant=3e-5|1e-4|3e-4,damping_ratio=0.5"},
       {"encoder_eccentricity", "height", "sine=3e-5|8e-5|2.4e-4,cosine=0,waves=100"},
       {"encoder_eccentricity", "drive", "sine=1.5e-3|4e-3|0.01,cosine=1.5e-3|4e-3|0.01,waves=1"},

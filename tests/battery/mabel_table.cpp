@@ -23,7 +23,7 @@ const std::vector<Row>& mabel_rows() {
       {"hysteresis", "bsp_left", "loss=0.3|1|4,rest=0,smoothing_speed=0.003"},
       {"hardening", "bsp_right", "cubic_stiffness=4|12|50,rest=0"},
       {"hard_stop", "leg_shape_left",
-       "cubic_stiffness=150|500|2000,damping=0.3|1|4,root_damping=0.1|0.3|1,position=0.35,side=1"},
+       "cubic_stiffness=150|500|2000,damping=0.3|1|4,root_damping=0.1|0.3|1,position=0.35,side=1,pulls=0"},
       {"com_shift", "torso_link", "x=5e-4|1.5e-3|5e-3,z=-5e-4|-1.5e-3|-5e-3"},
       {"added_mass", "shin_left", "mass=0.1|0.2|0.4"},
       {"encoder_offset", "knee_left", "offset=4e-3|0.012|0.035"},

@@ -77,7 +77,8 @@ TEST(Convergence, HardStopIsMetWhereItBegins) {
   const double wall = scales.center + 0.4 * scales.position;
   // Stiffness and damping such that the leg enters and leaves; no root, whose kinks are switches of their
   // own.
-  const model::Model stopped = with_effect(bare, "hard_stop", "thigh", {3e5, 1.0, 0.0, wall, 1.0, 1.0, 0.0, 0.0});
+  const model::Model stopped =
+      with_effect(bare, "hard_stop", "thigh", {3e5, 1.0, 0.0, wall, 1.0, 1.0, 0.0, 0.0, 1.0});
   const run::CommandedRun run = simulate(stopped, experiment, quiet());
   const model::Plant plant(stopped, {});
   int crossings = 0;

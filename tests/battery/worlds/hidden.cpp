@@ -22,7 +22,7 @@ double sliding(const Hidden& e, double v) {
   return e["level"] + e["rise"] * std::exp(-std::pow(std::abs(v) / e["stribeck_speed"], power));
 }
 
-/// A stop takes up force behind its position only, and never pulls.
+/// A stop takes up force behind its position only, and never pulls, but where a paper's does (MABEL's).
 double stop_force(const Hidden& e, const PlaceMotion& m) {
   const double deep = e["side"] * (m.x - e["position"]);
   if (deep <= 0.0) {
@@ -31,8 +31,9 @@ double stop_force(const Hidden& e, const PlaceMotion& m) {
   const double in = e["side"] * m.v;
   const double rounding = e["rounding"];
   const double root = in > 0.0 ? std::sqrt(in + rounding) - std::sqrt(rounding) : 0.0;
-  return -e["side"] * (e["stiffness"] * deep + e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in +
-                       e["root_damping"] * root);
+  const double push = e["stiffness"] * deep + e["cubic_stiffness"] * deep * deep * deep + e["damping"] * in +
+                      e["root_damping"] * root;
+  return push < 0.0 && e["pulls"] == 0.0 ? 0.0 : -e["side"] * push;
 }
 
 double one_sided_spring(const Hidden& e, const PlaceMotion& m) {
