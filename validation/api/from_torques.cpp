@@ -222,8 +222,9 @@ void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& da
     return;
   }
   Stage& stage = further.final_stage;
-  const bool is_open = !stage.parameters.empty() && stage.estimate.x0.size() == data.windows.size();
-  if (is_open && !further.interrupted && further.precision.deviations.size() == 0) {
+  const bool has_all_windows = stage.estimate.x0.size() == data.windows.size();
+  if (has_all_windows && !stage.parameters.empty() && !further.interrupted &&
+      further.precision.deviations.size() == 0) {
     validation::PredictorPool pool(stage.model, data);
     further.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
                                                  stage.parameters, stage.estimate);
@@ -241,7 +242,7 @@ void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& da
   further.bare_rungs = first.bare_rungs;
   further.test_before = first.test_before;
   first = std::move(further);
-  if (is_open && !first.interrupted && first.final_stage.estimate.scores.train < policy.hopeless) {
+  if (has_all_windows && !first.interrupted && first.final_stage.estimate.scores.train < policy.hopeless) {
     ask_windows_for_payloads(catalogue, data, policy, progress, first);
   }
   validation::conclude(data, policy, first);
