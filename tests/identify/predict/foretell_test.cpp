@@ -18,7 +18,7 @@ Room wide(Eigen::Index n) {
   return {Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
 }
 
-Prior nothing_known(Eigen::Index n) { return {0.0, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}; }
+Prior nothing_known(Eigen::Index n) { return {0.0, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)}; }
 
 // Large numbers: the search's own weak prior is then nothing.
 class Lines : public testing::Test {
@@ -32,9 +32,8 @@ class Lines : public testing::Test {
 // Bishop 2006, equation 3.59: covariance of what is predicted is the noise's and the slopes' times what is
 // not known of the parameters.
 TEST_F(Lines, AreForetoldAsThePredictiveDistributionSays) {
-  const Eigen::Vector2d known(4e4, 9e4);
-  const Eigen::Matrix2d precision =
-      train_.transpose() * train_ + Eigen::Matrix2d(Eigen::Vector2d(known).asDiagonal());
+  const Eigen::Matrix2d known = (Eigen::Matrix2d() << 4e4, -2e4, -2e4, 9e4).finished();
+  const Eigen::Matrix2d precision = train_.transpose() * train_ + known;
   const Eigen::Vector2d best = precision.inverse() * train_.transpose() * y_;
   const Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Identity() + held_out_ * precision.inverse() * held_out_.transpose();
