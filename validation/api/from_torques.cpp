@@ -121,11 +121,15 @@ bool floats_freely(const model::Model& model, const Data& data) {
 }
 
 /// Low-passed torques may put something that hangs at a link where it cannot be, and then name the centre of
-/// mass: windows are asked, too. An interruption leaves what is named.
-void ask_windows_for_payloads(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
-                              const Progress& progress, Diagnosis& diagnosis) {
+/// mass: windows are asked, too. `by_torques`: the answer of the torques with the model's numbers open as
+/// they are stated; what was identified beside another name says little of them. An interruption leaves what
+/// is named.
+void ask_windows_for_payloads(const Stage& by_torques, const effects::Catalogue& catalogue, const Data& data,
+                              const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
   const std::size_t rungs = diagnosis.ladder.size();
+  const Stage found = diagnosis.final_stage;
   try {
+    diagnosis.final_stage = by_torques;
     validation::name_payloads(catalogue, data, policy, progress, diagnosis);
     if (diagnosis.ladder.size() > rungs) {
       const Stage& named = diagnosis.final_stage;
@@ -136,6 +140,9 @@ void ask_windows_for_payloads(const effects::Catalogue& catalogue, const Data& d
     }
   } catch (const validation::Stopped&) {
     diagnosis.interrupted = true;
+  }
+  if (diagnosis.ladder.size() == rungs) {
+    diagnosis.final_stage = found;
   }
 }
 
@@ -222,9 +229,8 @@ void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& da
     return;
   }
   Stage& stage = further.final_stage;
-  const bool has_all_windows = stage.estimate.x0.size() == data.windows.size();
-  if (has_all_windows && !stage.parameters.empty() && !further.interrupted &&
-      further.precision.deviations.size() == 0) {
+  const bool is_open = !stage.parameters.empty() && stage.estimate.x0.size() == data.windows.size();
+  if (is_open && !further.interrupted && further.precision.deviations.size() == 0) {
     validation::PredictorPool pool(stage.model, data);
     further.precision = validation::precision_of(pool, data.windows_of(validation::Role::train),
                                                  stage.parameters, stage.estimate);
@@ -232,6 +238,8 @@ void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& da
   for (Finding& finding : first.accepted) {
     take_values(further, finding);
   }
+  const Stage by_torques = first.ladder.back().stage;
+  const bool is_all = further.accepted.empty();
   const auto before = static_cast<int>(first.ladder.size()) - 1;  // "as given" there is the last rung here
   for (Finding& finding : further.accepted) {
     finding.rung += finding.rung >= 0 ? before : 0;
@@ -242,8 +250,8 @@ void join(Diagnosis further, const effects::Catalogue& catalogue, const Data& da
   further.bare_rungs = first.bare_rungs;
   further.test_before = first.test_before;
   first = std::move(further);
-  if (has_all_windows && !first.interrupted && first.final_stage.estimate.scores.train < policy.hopeless) {
-    ask_windows_for_payloads(catalogue, data, policy, progress, first);
+  if (is_all && !first.interrupted && by_torques.estimate.x0.size() == data.windows.size()) {
+    ask_windows_for_payloads(by_torques, catalogue, data, policy, progress, first);
   }
   validation::conclude(data, policy, first);
 }
