@@ -143,6 +143,8 @@ void ask_windows_for_payloads(const Stage& by_torques, const effects::Catalogue&
   }
   if (diagnosis.ladder.size() == rungs) {
     diagnosis.final_stage = found;
+  } else if (diagnosis.interrupted) {
+    diagnosis.precision = {};  // it may be of the parameters before
   }
 }
 

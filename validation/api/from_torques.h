@@ -39,7 +39,8 @@ validation::Diagnosis diagnosis_of(const validation::TorqueStage& stage, const m
 /// with its own deviation, replaces what was stated.
 model::Model identified_model(const validation::TorqueStage& stage, std::size_t named);
 
-/// Findings and rungs of `further`, which began at identified_model(), behind those of `first`.
+/// Findings and rungs of `further`, which began at identified_model(), behind those of `first`. Where it has
+/// none, a payload is fitted to the windows in place of a mass or centre of mass that `first` names.
 void join(validation::Diagnosis further, const effects::Catalogue& catalogue, const validation::Data& data,
           const validation::Policy& policy, const validation::Progress& progress,
           validation::Diagnosis& first);
