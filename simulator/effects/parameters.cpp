@@ -58,6 +58,17 @@ Scales guarded(const Scales& scales) {
   return result;
 }
 
+Scales seen_from(const Scales& scales, double travel) {
+  Scales seen = scales;
+  const double size = std::abs(travel);
+  seen.position *= size;
+  seen.velocity *= size;
+  seen.center *= travel;
+  seen.force /= size;
+  seen.inertia /= size * size;
+  return seen;
+}
+
 double smoothing_speed_for(const Scales& scales) { return 0.002 * guarded(scales).velocity; }
 
 std::vector<Values> starts_at_rests(Values p, std::size_t rest, const Scales& scales,

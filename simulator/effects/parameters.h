@@ -38,6 +38,8 @@ Parameter fixed_side();
 /// The same magnitudes with zeros, infinities and NaN replaced by 1 (center: by 0), so that quotients are
 /// finite and not zero.
 Scales guarded(const Scales& scales);
+/// The same motion and force as seen from a place that moves by `travel` when the first moves by one.
+Scales seen_from(const Scales& scales, double travel);
 
 /// Sensible smoothing speed: 0.2 % of the root-mean-square velocity, {position}/s.
 double smoothing_speed_for(const Scales& scales);

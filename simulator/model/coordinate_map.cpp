@@ -14,8 +14,14 @@ CoordinateMap::CoordinateMap(const Model& model, const std::vector<effects::Valu
     n_tree_ += joint.type == JointType::fixed ? 0 : 1;
   }
   n_ = n_tree_ + motors() + static_cast<int>(model_.pulleys.size());
-  reduce(values, locks);
-  find_stretch_map(values);
+  for (std::size_t e = 0; e < model_.effects.size(); ++e) {
+    const EffectUse& use = model_.effects[e];
+    if (model_.resolve(*use.law, use.at) == effects::Place::ratio && !use.law->is_null(values[e].data())) {
+      released_.push_back(use.at);
+    }
+  }
+  reduce(locks);
+  find_stretch_map();
 }
 
 Eigen::VectorXd CoordinateMap::full_direction(const std::string& name) const {
@@ -74,28 +80,19 @@ LinearForm CoordinateMap::line_of(const Eigen::VectorXd& full) const {
   return line;
 }
 
-bool CoordinateMap::is_released(const Ratio& ratio, const std::vector<effects::Values>& values) const {
-  for (std::size_t e = 0; e < model_.effects.size(); ++e) {
-    const EffectUse& use = model_.effects[e];
-    if (model_.resolve(*use.law, use.at) != effects::Place::ratio || use.law->is_null(values[e].data())) {
-      continue;
-    }
-    if (model_.find_ratio(use.at) == &ratio) {
-      return true;
-    }
-  }
-  return false;
+bool CoordinateMap::is_released(const std::string& name) const {
+  return std::find(released_.begin(), released_.end(), name) != released_.end();
 }
 
 // Gauss elimination of the rigid ratios and locks. Each row gives up one coordinate: a ratio its motor, a
 // lock the coordinate with the largest remaining coefficient.
-void CoordinateMap::reduce(const std::vector<effects::Values>& values, const std::vector<Lock>& locks) {
+void CoordinateMap::reduce(const std::vector<Lock>& locks) {
   std::vector<Eigen::VectorXd> rows;
   std::vector<double> right;
   std::vector<std::string> names;
   std::vector<int> preferred;
   for (const Ratio& ratio : model_.ratios) {
-    if (is_released(ratio, values)) {
+    if (is_released(ratio.name)) {
       continue;
     }
     rows.push_back(stretch_direction(ratio));
@@ -176,11 +173,11 @@ void CoordinateMap::reduce(const std::vector<effects::Values>& values, const std
   }
 }
 
-void CoordinateMap::find_stretch_map(const std::vector<effects::Values>& values) {
+void CoordinateMap::find_stretch_map() {
   Eigen::Index released = 0;
   stretch_map_.resize(static_cast<Eigen::Index>(model_.ratios.size()), nz_);
   for (const Ratio& ratio : model_.ratios) {
-    if (is_released(ratio, values)) {
+    if (is_released(ratio.name)) {
       stretch_map_.row(released++) = (S_.transpose() * stretch_direction(ratio)).transpose();
     }
   }

@@ -37,18 +37,20 @@ class CoordinateMap {
   /// Of what stretches where the ratio is released.
   Eigen::VectorXd stretch_direction(const Ratio& ratio) const;
   LinearForm line_of(const Eigen::VectorXd& full) const;
+  /// Does an effect let this ratio, or this rod of a loop, stretch?
+  bool is_released(const std::string& name) const;
   /// Of a joint, motor or pulley.
   std::string name_of(int full) const;
   /// Of one of the independent ones.
   std::string name_of_independent(int z) const { return name_of(independent_[static_cast<std::size_t>(z)]); }
 
  private:
-  void reduce(const std::vector<effects::Values>& values, const std::vector<Lock>& locks);
-  void find_stretch_map(const std::vector<effects::Values>& values);
-  bool is_released(const Ratio& ratio, const std::vector<effects::Values>& values) const;
+  void reduce(const std::vector<Lock>& locks);
+  void find_stretch_map();
   int motors() const { return static_cast<int>(model_.motors.size()); }
 
   const Model& model_;
+  std::vector<std::string> released_;
   std::vector<int> independent_;  // full coordinates that z are
   int n_tree_ = 0, n_ = 0, nz_ = 0;
   Eigen::MatrixXd S_, S_tree_, stretch_map_;

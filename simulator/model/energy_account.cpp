@@ -25,6 +25,7 @@ void add_power_of_links(const PlantDynamics& plant, const double* x, Energetics&
 Energetics energetics(PlantDynamics& plant, const double* x, const double* command) {
   plant.deliver_torques(x, command, nullptr);
   plant.bodies().rigid_at(x);
+  plant.aim_rods(x);
   Energetics e = powers(plant, x);
   e.stored += plant.bodies().energy(x);
   return e;

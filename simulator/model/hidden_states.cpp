@@ -87,13 +87,17 @@ std::vector<int> carried_state_effects(const PlantDynamics& plant) {
   return effects;
 }
 
-void carry_states(const PlantDynamics& plant, const double* from, const double* to, const double* command,
-                  double h, double* x) {
+void carry_states(PlantDynamics& plant, const double* from, const double* to, const double* command, double h,
+                  double* x) {
   for (const ForceSlot& slot : plant.forces()) {
     if (slot.state < 0 || !slot.active) {
       continue;
     }
     const auto along = [&](const double* at) {
+      if (slot.rod >= 0) {
+        plant.bodies().rigid_at(at);
+        plant.aim_rods(at);
+      }
       const Vector z(at, plant.positions());
       const Vector w(at + plant.positions(), plant.positions());
       return std::make_pair(slot.line.offset + slot.line.reduced.dot(z), slot.line.reduced.dot(w));

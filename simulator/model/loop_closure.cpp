@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/trace/error.h"
 #include "simulator/trace/number_text.h"
@@ -28,11 +29,23 @@ int rank_of(const Eigen::MatrixXd& J) {
 
 }  // namespace
 
-LoopClosure::LoopClosure(const Model& model, const Eigen::MatrixXd& S, const Eigen::VectorXd& q0)
-    : S_(S), q0_(q0), mechanism_(model.skeleton), rows_(model.skeleton, model.loops, mechanism_) {
-  leave_out_what_always_holds(model);
+LoopClosure::LoopClosure(const Model& model, std::vector<Loop> loops, const Eigen::MatrixXd& S,
+                         const Eigen::VectorXd& q0)
+    : loops_(std::move(loops)),
+      S_(S),
+      q0_(q0),
+      mechanism_(model.skeleton),
+      rows_(model.skeleton, loops_, mechanism_) {
+  leave_out_what_always_holds();
   find_home(model);
-  refuse_redundant(model);
+  refuse_redundant();
+}
+
+// A kept row is a combination of one loop's rows.
+const Loop& LoopClosure::loop_of(int row) const {
+  Eigen::Index column = 0;
+  rows_.kept().row(row).cwiseAbs().maxCoeff(&column);
+  return loops_[static_cast<std::size_t>(rows_.loop_of(static_cast<int>(column)))];
 }
 
 void LoopClosure::place(const Eigen::VectorXd& z) {
@@ -67,7 +80,7 @@ Eigen::VectorXd LoopClosure::somewhere(double reach) {
 
 // Combinations of a loop's rows that no joint can change: the way out of the plane of a planar mechanism.
 // They are closed or they never are.
-void LoopClosure::leave_out_what_always_holds(const Model& model) {
+void LoopClosure::leave_out_what_always_holds() {
   constexpr double kNever = 1e-6;  // of the loops' size: coordinates of points are rounded
   std::vector<Eigen::VectorXd> z;
   std::vector<Eigen::MatrixXd> J;
@@ -84,7 +97,7 @@ void LoopClosure::leave_out_what_always_holds(const Model& model) {
     while (first + rows < all && rows_.loop_of(first + rows) == rows_.loop_of(first)) {
       ++rows;
     }
-    const Loop& loop = model.loops[static_cast<std::size_t>(rows_.loop_of(first))];
+    const Loop& loop = loops_[static_cast<std::size_t>(rows_.loop_of(first))];
     Eigen::MatrixXd stacked(rows, kLooks * S_.cols());
     for (int look = 0; look < kLooks; ++look) {
       stacked.middleCols(look * S_.cols(), S_.cols()) =
@@ -158,32 +171,24 @@ void LoopClosure::find_home(const Model& model) {
   const Eigen::VectorXd all = rows_.kept().transpose() * errors(home_);
   Eigen::Index worst = 0;
   all.cwiseAbs().maxCoeff(&worst);
-  refuse(model.loops[static_cast<std::size_t>(rows_.loop_of(static_cast<int>(worst)))],
+  refuse(loops_[static_cast<std::size_t>(rows_.loop_of(static_cast<int>(worst)))],
          "ends that no position of the joints was found to bring nearer than " + number_text(least, 3) + " m",
          "a loop that can be closed; `near` states positions of joints to begin from");
 }
 
 // The first loop whose rows depend on those before it.
-void LoopClosure::refuse_redundant(const Model& model) {
+void LoopClosure::refuse_redundant() {
   const Eigen::MatrixXd J = jacobian(home_);
   if (rank_of(J) == size()) {
-    if (size() >= S_.cols()) {
-      refuse(model.loops.back(), "loops that leave no joint free to move", "at least one that can");
-    }
     return;
   }
   int end = 0;
-  for (std::size_t l = 0; l < model.loops.size(); ++l) {
-    while (end < size()) {
-      Eigen::Index column = 0;
-      rows_.kept().row(end).cwiseAbs().maxCoeff(&column);
-      if (rows_.loop_of(static_cast<int>(column)) != static_cast<int>(l)) {
-        break;
-      }
+  for (const Loop& loop : loops_) {
+    while (end < size() && &loop_of(end) == &loop) {
       ++end;
     }
     if (rank_of(J.topRows(end)) < end) {
-      refuse(model.loops[l], "a loop that holds again what joints, locks or other loops hold already",
+      refuse(loop, "a loop that holds again what joints, locks or other loops hold already",
              "loops that are independent: a connect or a rod in place of a hinge or a weld leaves more free");
     }
   }
@@ -198,7 +203,7 @@ Eigen::VectorXd LoopClosure::step(const Eigen::MatrixXd& C, const Eigen::VectorX
   onto.setThreshold(kRank);
   onto.compute(J);
   Eigen::VectorXd move = -onto.solve(off);
-  if (exact || C.rows() == 0) {
+  if (exact || C.rows() == 0 || onto.rank() == z.size()) {
     return move;
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J.transpose());
@@ -245,7 +250,7 @@ Eigen::VectorXd LoopClosure::velocities(const Eigen::MatrixXd& C, const Eigen::V
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J.transpose());
   const Eigen::MatrixXd Q = qr.householderQ();
   const Eigen::MatrixXd along = Q.rightCols(z.size() - J.rows());
-  if (C.rows() == 0) {
+  if (C.rows() == 0 || along.cols() == 0) {
     return Eigen::VectorXd::Zero(z.size());
   }
   return along * (C * along).eval().completeOrthogonalDecomposition().solve(y);

@@ -13,13 +13,16 @@ namespace plumbline::model {
 /// the skeleton's. Not thread-safe: one object for each thread.
 class LoopClosure {
  public:
-  /// Finds a position in which all loops are closed, near Model::loops_near (joints not named: zero). Throws
-  /// InputError, with file and line of the loop, when none is found, when a loop can never close, and when it
-  /// holds only what joints, locks or other loops hold already.
-  LoopClosure(const Model& model, const Eigen::MatrixXd& S, const Eigen::VectorXd& q0);
+  /// Of some or all loops of the model: finds a position in which they are closed, near Model::loops_near
+  /// (joints not named: zero). Throws InputError, with file and line of the loop, when none is found, when a
+  /// loop can never close, and when it holds only what joints, locks or other loops hold already.
+  LoopClosure(const Model& model, std::vector<Loop> loops, const Eigen::MatrixXd& S,
+              const Eigen::VectorXd& q0);
 
   int size() const { return rows_.size(); }
   LoopRows& rows() { return rows_; }
+  /// That a row of errors() is of.
+  const Loop& loop_of(int row) const;
   /// Where the loops are closed first.
   const Eigen::VectorXd& home() const { return home_; }
 
@@ -38,13 +41,14 @@ class LoopClosure {
 
  private:
   void place(const Eigen::VectorXd& z);
-  void leave_out_what_always_holds(const Model& model);
+  void leave_out_what_always_holds();
   void find_home(const Model& model);
-  void refuse_redundant(const Model& model);
+  void refuse_redundant();
   Eigen::VectorXd step(const Eigen::MatrixXd& C, const Eigen::VectorXd& miss, const Eigen::VectorXd& z,
                        bool exact);
   Eigen::VectorXd somewhere(double reach);
 
+  std::vector<Loop> loops_;
   Eigen::MatrixXd S_;
   Eigen::VectorXd q0_;
   Mechanism mechanism_;

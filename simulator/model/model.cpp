@@ -55,6 +55,11 @@ const Pulley* Model::find_pulley(const std::string& name) const { return find_na
 const Sensor* Model::find_sensor(const std::string& name) const { return find_named(sensors, name); }
 const Ratio* Model::find_ratio(const std::string& name) const { return find_named(ratios, name); }
 
+const Loop* Model::find_rod(const std::string& name) const {
+  const Loop* loop = find_named(loops, name);
+  return loop != nullptr && loop->type == Loop::Type::rod ? loop : nullptr;
+}
+
 const ContactSwitch* Model::find_switch(const std::string& name) const { return find_named(switches, name); }
 
 int Model::body_index(const std::string& name) const { return index_of(skeleton.bodies, name); }
@@ -84,6 +89,11 @@ std::vector<std::string> Model::places(effects::Place place) const {
       for (const Ratio& ratio : ratios) {
         if (find_motor(ratio.motor) != nullptr) {  // a joint tied to coordinates is never released
           names.push_back(ratio.name);
+        }
+      }
+      for (const Loop& loop : loops) {
+        if (loop.type == Loop::Type::rod) {
+          names.push_back(loop.name);
         }
       }
       break;
@@ -134,9 +144,10 @@ bool Model::place_is_angular(effects::Place place, const std::string& at) const 
     case effects::Place::motor:
       return is_angular(*this, at);
     case effects::Place::ratio: {
-      // The stretch is motor position minus ratio times coordinate: it has the motor's kind.
+      // The stretch is motor position minus ratio times coordinate: it has the motor's kind. A rod's is a
+      // length.
       const Ratio* ratio = find_ratio(at);
-      return ratio == nullptr || is_angular(*this, ratio->motor);
+      return ratio == nullptr ? find_rod(at) == nullptr : is_angular(*this, ratio->motor);
     }
     case effects::Place::sensor: {
       const Sensor* inertial = find_inertial(*this, at);

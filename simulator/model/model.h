@@ -267,6 +267,7 @@ struct Model {
   const Pulley* find_pulley(const std::string& name) const;
   const Sensor* find_sensor(const std::string& name) const;
   const Ratio* find_ratio(const std::string& name) const;
+  const Loop* find_rod(const std::string& name) const;  ///< a loop that a rod closes
   const ContactSwitch* find_switch(const std::string& name) const;
   int body_index(const std::string& name) const;    ///< -1
   int motor_index(const std::string& name) const;   ///< -1

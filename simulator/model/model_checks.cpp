@@ -134,6 +134,11 @@ void check_names(const YamlNode& root, const Model& model) {
                   "another name, or exactly this joint: {of: {" + coordinate.name + ": 1}}");
     }
   }
+  for (const Ratio& ratio : model.ratios) {
+    if (model.find_rod(ratio.name) != nullptr) {
+      entry_of(root, "loops", ratio.name).refuse("the name of a ratio", "a name that only this rod has");
+    }
+  }
   for (const Motor& motor : model.motors) {
     if (names_joint(motor.name) || model.find_coordinate(motor.name) != nullptr) {
       entry_of(root, "motors", motor.name)

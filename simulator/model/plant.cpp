@@ -43,6 +43,7 @@ Eigen::VectorXd Plant::equilibrium(const Eigen::VectorXd& z, const double* comma
 }
 
 bool Plant::has_loops() const { return dynamics_->bodies().has_loops(); }
+LoopClosure* Plant::holding() { return dynamics_->bodies().held(); }
 LoopClosure* Plant::closure() { return dynamics_->bodies().closure(); }
 std::unique_ptr<LoopClosure> Plant::own_closure() const { return dynamics_->bodies().own_closure(); }
 Eigen::VectorXd Plant::home() const { return dynamics_->bodies().home(); }
@@ -54,6 +55,7 @@ void Plant::outputs(const double* x, double* y, const double* command) { reading
 const Eigen::MatrixXd& Plant::output_map() const { return readings_->output_map(); }
 const Eigen::VectorXd& Plant::output_offset() const { return readings_->output_offset(); }
 int Plant::tree_body_of_sensor(int sensor) const { return readings_->tree_body_of_sensor(sensor); }
+bool Plant::lets_stretch(const std::string& name) const { return dynamics_->map().is_released(name); }
 const Eigen::MatrixXd& Plant::stretch_map() const { return dynamics_->map().stretch_map(); }
 const TreeDynamics& Plant::tree() const { return dynamics_->bodies().tree(); }
 const Eigen::MatrixXd& Plant::joint_map() const { return dynamics_->map().S_tree(); }
@@ -179,8 +181,23 @@ double Plant::inertia_of(const std::string& name) {
   return mobility > 0.0 ? 1.0 / mobility : std::numeric_limits<double>::infinity();
 }
 
+Plant::Lever Plant::lever_of(const std::string& rod) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2 * positions());
+  x.head(positions()) = home();
+  dynamics_->bodies().rigid_at(x.data());
+  ReleasedRods rods(model(), dynamics_->map());
+  const int index = rods.add(rod, dynamics_->bodies().mechanism());
+  const Eigen::VectorXd row = rods.line_at(index, dynamics_->bodies().tree(), x.data()).reduced;
+  Eigen::Index most = 0;
+  row.cwiseAbs().maxCoeff(&most);
+  return {dynamics_->map().name_of_independent(static_cast<int>(most)), row[most]};
+}
+
 effects::Motion Plant::motion_at(effects::Place place, const std::string& at, const double* x) const {
   const CoordinateMap& map = dynamics_->map();
+  if (place == effects::Place::ratio && model().find_rod(at) != nullptr) {
+    return dynamics_->rod_motion(at, x);
+  }
   const LinearForm line =
       map.line_of(place == effects::Place::ratio ? map.stretch_direction(*model().find_ratio(at))
                                                  : map.full_direction(at));

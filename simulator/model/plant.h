@@ -55,13 +55,16 @@ class Plant {
   /// std::runtime_error where a free or ball joint is at its chart's singularity (joint_chain.h).
   void rate(const double* x, const double* command, double* xdot);
 
-  /// Are there closed loops, so that not every x is a state of the model?
+  /// Are there closed loops that hold, so that not every x is a state of the model? A rod that an effect lets
+  /// stretch holds nothing.
   bool has_loops() const;
-  /// What closes them; null where there are none.
+  /// What closes those that hold, and what closes all of them with rods at their length, for a start; null
+  /// where there are none.
+  LoopClosure* holding();
   LoopClosure* closure();
-  /// Another one, for whoever outlives this plant or holds it const.
+  /// Another one of all, for whoever outlives this plant or holds it const.
   std::unique_ptr<LoopClosure> own_closure() const;
-  /// A position in which the loops are closed; without loops zero.
+  /// A position in which all loops are closed; without loops zero.
   Eigen::VectorXd home() const;
   /// Moves x onto the loops: positions by M^-1 J' until phi = 0 to rounding, then velocities until J w = 0.
   /// Returns the largest of phi before, m. Throws std::runtime_error where they cannot be closed.
@@ -83,6 +86,8 @@ class Plant {
   const Eigen::MatrixXd& output_map() const;
   /// True position of each sensor at z = 0.
   const Eigen::VectorXd& output_offset() const;
+  /// Does an effect let this ratio, or this rod of a loop, stretch?
+  bool lets_stretch(const std::string& name) const;
   /// Rows that are zero when no released ratio is stretched (for an unobserved start).
   const Eigen::MatrixXd& stretch_map() const;
 
@@ -159,6 +164,13 @@ class Plant {
   const Eigen::MatrixXd& mass_matrix() const;
   /// Generalised inertia felt along a named place at the last evaluated position.
   double inertia_of(const std::string& name);
+  /// The coordinate whose own motion, with the loops open, changes a rod's length most in the position
+  /// home(), and that change over its own, m/rad or 1.
+  struct Lever {
+    std::string coordinate;
+    double travel = 0.0;
+  };
+  Lever lever_of(const std::string& rod) const;
 
   /// Position and velocity as a place's law sees them (stretch for a ratio).
   effects::Motion motion_at(effects::Place place, const std::string& at, const double* x) const;

@@ -35,7 +35,8 @@ PlantDynamics::PlantDynamics(const Model& model, const std::vector<Lock>& locks,
       bodies_(model_, values_, map_),
       n_tree_(map_.tree()),
       nz_(map_.independent()),
-      feet_(model_, map_, std::move(terrain)) {
+      feet_(model_, map_, std::move(terrain)),
+      rods_(model_, map_) {
   torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
   gear_load_ = torque_;
   motor_pulleys_ = torque_;
@@ -66,7 +67,10 @@ void PlantDynamics::place_force(const effects::ForceLaw& law, int effect, int& n
   gear_friction_ = gear_friction_ || law.feels_gear_load();
   const Place place = model_.resolve(law, use.at);
   std::string motor = use.at;
-  if (place == Place::ratio) {
+  if (place == Place::ratio && model_.find_rod(use.at) != nullptr) {
+    slot.line.reduced.setZero(nz_);  // it holds, or points along itself where it is evaluated
+    slot.rod = slot.active ? rods_.add(use.at, bodies_.mechanism()) : -1;
+  } else if (place == Place::ratio) {
     const Ratio& ratio = *model_.find_ratio(use.at);
     slot.line = map_.line_of(map_.stretch_direction(ratio));
     motor = ratio.motor;

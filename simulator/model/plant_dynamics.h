@@ -14,6 +14,7 @@
 #include "simulator/model/model.h"
 #include "simulator/model/plant_slots.h"
 #include "simulator/model/plant_values.h"
+#include "simulator/model/released_rods.h"
 #include "simulator/model/rigid_bodies.h"
 
 namespace plumbline::model {
@@ -77,6 +78,11 @@ class PlantDynamics {
   /// written when xdot is given.
   double actuator_chain(int motor, const double* x, double commanded, double* xdot) const;
   void deliver_torques(const double* x, const double* command, double* xdot);
+  /// Rods that stretch point along themselves at x, where rigid_at() has been.
+  void aim_rods(const double* x);
+  ReleasedRods& rods() { return rods_; }
+  /// How far a rod is stretched at x; one that holds is not.
+  effects::Motion rod_motion(const std::string& rod, const double* x);
   /// Position, velocity and load as a law sees them.
   effects::Motion motion(const ForceSlot& slot, const double* x) const;
   /// Generalised forces of the links on each other, where rigid_at() has left the tree.
@@ -108,6 +114,7 @@ class PlantDynamics {
   std::vector<LinearForm> motor_lines_;
   GroundFeet feet_;
   std::unique_ptr<LinkContacts> links_;
+  ReleasedRods rods_;
 
   // Work space of the last evaluation.
   Eigen::VectorXd Q_, torque_, acceleration_, on_joints_;

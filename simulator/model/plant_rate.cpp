@@ -85,7 +85,31 @@ void PlantDynamics::find_gear_loads(const double* x) {
   }
 }
 
+void PlantDynamics::aim_rods(const double* x) {
+  if (rods_.empty()) {
+    return;
+  }
+  for (ForceSlot& slot : forces_) {
+    if (slot.rod >= 0) {
+      slot.line = rods_.line_at(slot.rod, bodies_.tree(), x);
+    }
+  }
+}
+
+effects::Motion PlantDynamics::rod_motion(const std::string& rod, const double* x) {
+  if (!map_.is_released(rod)) {
+    return {};
+  }
+  bodies_.rigid_at(x);
+  const int index = rods_.add(rod, bodies_.mechanism());
+  const LinearForm line = rods_.line_at(index, bodies_.tree(), x);
+  const Eigen::Map<const Eigen::VectorXd> z(x, nz_);
+  const Eigen::Map<const Eigen::VectorXd> w(x + nz_, nz_);
+  return {line.offset + line.reduced.dot(z), line.reduced.dot(w), 0.0};
+}
+
 void PlantDynamics::add_forces(const double* x, Eigen::VectorXd& Q, double* xdot) {
+  aim_rods(x);
   for (int m = 0; m < motors(); ++m) {
     for (const LinearForm::Entry& entry : motor_lines_[static_cast<std::size_t>(m)].entries) {
       Q[entry.index] += entry.value * torque_[m];
@@ -165,11 +189,12 @@ Eigen::RowVectorXd PlantDynamics::switch_lateness_slope(const std::string& conta
 void PlantDynamics::switches(const double* x, double* g) {
   std::vector<double>& all = switch_values_;
   all.clear();
+  if (meets_anything() || !rods_.empty()) {
+    bodies_.rigid_at(x);
+    aim_rods(x);
+  }
   for (const ForceSlot& slot : forces_) {
     slot.law->switches(motion(slot, x), values(slot.effect), all);
-  }
-  if (meets_anything()) {
-    bodies_.rigid_at(x);
   }
   for (const FootSlot& slot : feet_.slots()) {
     all.push_back(feet_.touch(slot, bodies_.tree()).depth);
@@ -196,30 +221,36 @@ std::vector<ForceJump> PlantDynamics::jumps() const {
 }
 
 Eigen::VectorXd PlantDynamics::equilibrium(const Eigen::VectorXd& z, const double* command) {
+  constexpr double kStep = 1e-6;    // rad or m
+  constexpr double kLongest = 0.3;  // of a step of Newton's method, the same
+  constexpr double kRounding = 1e-9;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(nx_);
   Eigen::VectorXd xdot(nx_);
+  Eigen::VectorXd lambda;
   x.head(nz_) = z;
   model::settle(*this, command, x.data());
   for (int iteration = 0; iteration < 60; ++iteration) {
     rate(x.data(), command, xdot.data());
-    const Eigen::VectorXd force = bodies_.M() * xdot.segment(nz_, nz_);
-    const double scale = 1e-9 * (bodies_.h().cwiseAbs().maxCoeff() + torque_.cwiseAbs().sum() + 1e-6);
+    const Eigen::VectorXd force = bodies_.has_loops() ? bodies_.beside_loops(Q_, x.head(nz_), lambda)
+                                                      : bodies_.M() * xdot.segment(nz_, nz_);
+    const double scale = kRounding * (bodies_.h().cwiseAbs().maxCoeff() + torque_.cwiseAbs().sum() + 1e-6);
     if (force.cwiseAbs().maxCoeff() < scale &&
-        (!bodies_.has_loops() || bodies_.closure()->is_closed(x.head(nz_)))) {
+        (!bodies_.has_loops() || bodies_.held()->is_closed(x.head(nz_)))) {
       return x.head(nz_);
     }
     Eigen::MatrixXd K(nz_, nz_);
     for (int i = 0; i < nz_; ++i) {
-      const double step = 1e-6;
       Eigen::VectorXd moved = x;
-      moved[i] += step;
+      moved[i] += kStep;
       rate(moved.data(), command, xdot.data());
-      K.col(i) = (bodies_.M() * xdot.segment(nz_, nz_) - force) / step;
+      const Eigen::VectorXd there = bodies_.has_loops() ? bodies_.with_loops(Q_, moved.head(nz_), lambda)
+                                                        : bodies_.M() * xdot.segment(nz_, nz_);
+      K.col(i) = (there - force) / kStep;
     }
-    Eigen::VectorXd move = bodies_.has_loops() ? bodies_.move_along_loops(K, force, x.head(nz_))
-                                               : -K.colPivHouseholderQr().solve(force);
+    const Eigen::VectorXd move = bodies_.has_loops() ? bodies_.move_along_loops(K, force, x.head(nz_))
+                                                     : -K.colPivHouseholderQr().solve(force);
     const double largest = move.cwiseAbs().maxCoeff();
-    x.head(nz_) += largest > 0.3 ? move * (0.3 / largest) : move;
+    x.head(nz_) += largest > kLongest ? Eigen::VectorXd(move * (kLongest / largest)) : move;
   }
   throw std::runtime_error("no static equilibrium found near the start position");
 }

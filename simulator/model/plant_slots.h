@@ -28,6 +28,7 @@ struct ForceSlot {
   int effect = 0;
   int state = -1;         ///< index in x of its first hidden state
   int motor = -1;         ///< motor whose torque is the load
+  int rod = -1;           ///< of PlantDynamics' rods: `line` is then that of the position evaluated last
   bool at_motor = false;  ///< acts on that motor itself, not on its gear
   bool active = true;     ///< false at null values: costs nothing
   LinearForm line;

@@ -83,9 +83,13 @@ effects::Motion PlantTangent::half_change(const ForceSlot& slot, const double* c
 // Adds the effects' own slopes: scalar differences of each law, no dynamics.
 void PlantTangent::effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A) {
   slopes_.setZero(nz_, nx_);
+  plant_.aim_rods(x);
   for (const ForceSlot& slot : plant_.forces()) {
     if (slot.active) {
       force_tangent(slot, x, change, A);
+    }
+    if (slot.active && slot.rod >= 0) {
+      rod_tangent(slot, x, A);
     }
   }
   plant_.feet().add_slopes(bodies_.tree(), x, plant_.on_ground(), change, slopes_, A);
@@ -163,6 +167,32 @@ void PlantTangent::force_tangent(const ForceSlot& slot, const double* x, const d
     for (int r = 0; r < states; ++r) {
       A(slot.state + r, slot.state + k) += (up[r] - down[r]) / (2.0 * ds);
     }
+  }
+}
+
+// A rod turns with the position: what it pulls at turns with it, and so does the speed that it feels,
+//   d(J' f)/dz = ... + f dJ/dz + J' df/dv (dJ/dz w).
+void PlantTangent::rod_tangent(const ForceSlot& slot, const double* x, Eigen::Ref<Eigen::MatrixXd> A) {
+  const double* p = values(slot.effect);
+  const effects::Motion at = plant_.motion(slot, x);
+  const double* state = slot.state >= 0 ? x + slot.state : nullptr;
+  const Eigen::MatrixXd curvature = plant_.rods().curvature(slot.rod, bodies_.tree(), x);
+  const Eigen::VectorXd turn = curvature.transpose() * Eigen::Map<const Eigen::VectorXd>(x + nz_, nz_);
+  const double dv = 1e-6 * (1.0 + std::abs(at.velocity));
+  effects::Motion plus = at;
+  effects::Motion minus = at;
+  plus.velocity += dv;
+  minus.velocity -= dv;
+  const double damping = (slot.law->force(plus, state, p) - slot.law->force(minus, state, p)) / (2.0 * dv);
+  slopes_.leftCols(nz_) += slot.law->force(at, state, p) * curvature;
+  slopes_.leftCols(nz_) += damping * slot.line.reduced * turn.transpose();
+  if (state != nullptr) {
+    const int count = slot.law->state_count();
+    FewStates up = FewStates::Zero(count);
+    FewStates down = up;
+    slot.law->state_rate(plus, state, p, up.data());
+    slot.law->state_rate(minus, state, p, down.data());
+    A.block(slot.state, 0, count, nz_) += (up - down) / (2.0 * dv) * turn.transpose();
   }
 }
 

@@ -55,6 +55,7 @@ class PlantTangent {
   void effect_tangent(const double* x, const double* change, Eigen::Ref<Eigen::MatrixXd> A);
   void force_tangent(const ForceSlot& slot, const double* x, const double* change,
                      Eigen::Ref<Eigen::MatrixXd> A);
+  void rod_tangent(const ForceSlot& slot, const double* x, Eigen::Ref<Eigen::MatrixXd> A);
   void link_tangent(const LinkContacts& links, const double* x, const double* change,
                     Eigen::Ref<Eigen::MatrixXd> A);
   void actuator_tangent(const double* x, const double* command, Eigen::Ref<Eigen::MatrixXd> A);

@@ -141,7 +141,11 @@ PositionsFrom::PositionsFrom(const Plant& plant, const std::vector<Observation>&
     rows_ = C.topRows(n + stretches_);
   }
   if (loops_ > 0) {
-    C.bottomRows(loops_) = kStiff * largest * closure_->jacobian(closure_->home());
+    C.bottomRows(loops_) = largest * closure_->jacobian(closure_->home());
+    for (Eigen::Index i = 0; i < loops_; ++i) {
+      const bool stretches = plant.lets_stretch(closure_->loop_of(static_cast<int>(i)).name);
+      C.row(n + stretches_ + i) *= stretches ? kWeak : kStiff;
+    }
   }
   solver_.compute(C);
 }

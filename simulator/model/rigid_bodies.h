@@ -66,8 +66,12 @@ class RigidBodies {
   Eigen::VectorXd accelerated(const Eigen::VectorXd& Q) const;
   void accelerate_in_place(Eigen::MatrixXd& Q) const;
 
+  /// Rods that an effect lets stretch hold nothing.
   void make_loops();
-  bool has_loops() const { return closure_ != nullptr; }
+  /// Are there loops that hold the bodies?
+  bool has_loops() const { return held_ != nullptr; }
+  /// Of the loops that hold, and of all, rods at their length; null where there are none.
+  LoopClosure* held() const { return held_.get(); }
   LoopClosure* closure() const { return closure_.get(); }
   std::unique_ptr<LoopClosure> own_closure() const;
   Eigen::VectorXd home() const;
@@ -75,7 +79,13 @@ class RigidBodies {
   double close_loops(double* x);
   Eigen::Vector2d loop_errors(const double* x);
   Eigen::MatrixXd closing_slope(const double* x);
-  /// Newton's step of an equilibrium along the loops, K = d(force)/dz.
+  /// What of a force the loops do not carry: Q + J' lambda with the lambda that leaves least of it, or with a
+  /// given one.
+  Eigen::VectorXd beside_loops(const Eigen::VectorXd& Q, const Eigen::VectorXd& z, Eigen::VectorXd& lambda);
+  Eigen::VectorXd with_loops(const Eigen::VectorXd& Q, const Eigen::VectorXd& z,
+                             const Eigen::VectorXd& lambda);
+  /// Newton's step of an equilibrium: force + K move + J' dlambda = 0, phi + J move = 0, where K is
+  /// d(Q + J' lambda)/dz with lambda held.
   Eigen::VectorXd move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
                                    const Eigen::VectorXd& z);
   /// d(acceleration)/d(z, w) with the force Q held, where it is a0 at x; positions x 2 positions.
@@ -102,7 +112,7 @@ class RigidBodies {
   Eigen::VectorXd known_;  // positions and velocities that q_, v_, M_, h_ and the tree's kinematics belong to
   bool rigid_known_ = false, factored_ = false;
 
-  std::unique_ptr<LoopClosure> closure_;           // null: no loops
+  std::shared_ptr<LoopClosure> closure_, held_;
   Eigen::MatrixXd loop_J_, loop_Y_, loop_tree_J_;  // dphi/dz, M^-1 J' at the position of factor_
   Eigen::VectorXd loop_bias_;                      // (dJ/dt) w
   Factor loop_factor_;                             // J M^-1 J'

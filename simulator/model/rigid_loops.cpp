@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "simulator/model/rigid_bodies.h"
@@ -27,6 +28,18 @@ void RigidBodies::make_loops() {
   }
   rigid_known_ = false;
   closure_ = own_closure();
+  std::vector<Loop> holding;
+  std::copy_if(model_.loops.begin(), model_.loops.end(), std::back_inserter(holding),
+               [&](const Loop& loop) { return !map_.is_released(loop.name); });
+  if (holding.size() == model_.loops.size()) {
+    held_ = closure_;
+  } else if (!holding.empty()) {
+    held_ = std::make_shared<LoopClosure>(model_, holding, map_.S_tree(), map_.q0().head(n_tree_));
+  }
+  if (held_ != nullptr && held_->size() >= nz_) {
+    throw InputError({holding.back().file, holding.back().line, "loops: " + holding.back().name},
+                     "loops that leave no joint free to move", "at least one that can");
+  }
 }
 
 // The ways of a base that an effect bends are the structure's, not the skeleton's.
@@ -36,17 +49,18 @@ bool RigidBodies::planar_base_is_bent() const {
 }
 
 std::unique_ptr<LoopClosure> RigidBodies::own_closure() const {
-  return model_.loops.empty() ? nullptr
-                              : std::make_unique<LoopClosure>(model_, map_.S_tree(), map_.q0().head(n_tree_));
+  return model_.loops.empty()
+             ? nullptr
+             : std::make_unique<LoopClosure>(model_, model_.loops, map_.S_tree(), map_.q0().head(n_tree_));
 }
 
 Eigen::VectorXd RigidBodies::home() const {
-  return has_loops() ? closure_->home() : Eigen::VectorXd(Eigen::VectorXd::Zero(nz_));
+  return closure_ != nullptr ? closure_->home() : Eigen::VectorXd(Eigen::VectorXd::Zero(nz_));
 }
 
 // At the position and velocity that M_ and h_ were evaluated at.
 void RigidBodies::hold_loops() {
-  LoopRows& rows = closure_->rows();
+  LoopRows& rows = held_->rows();
   const TreeDynamics& tree = this->tree();
   rows.jacobian(tree, n_tree_, loop_tree_J_);
   rows.bias(tree, loop_bias_);
@@ -86,17 +100,30 @@ void RigidBodies::accelerate_in_place(Eigen::MatrixXd& Q) const {
   }
 }
 
-// Newton's step of an equilibrium: K move = -force and J move = -phi. The force is one that the loops leave,
-// so that K alone has not full rank.
+Eigen::VectorXd RigidBodies::beside_loops(const Eigen::VectorXd& Q, const Eigen::VectorXd& z,
+                                          Eigen::VectorXd& lambda) {
+  const Eigen::MatrixXd J = held_->jacobian(z);
+  lambda = -(J * J.transpose()).ldlt().solve(J * Q);
+  return Q + J.transpose() * lambda;
+}
+
+Eigen::VectorXd RigidBodies::with_loops(const Eigen::VectorXd& Q, const Eigen::VectorXd& z,
+                                        const Eigen::VectorXd& lambda) {
+  return Q + held_->jacobian(z).transpose() * lambda;
+}
+
 Eigen::VectorXd RigidBodies::move_along_loops(const Eigen::MatrixXd& K, const Eigen::VectorXd& force,
                                               const Eigen::VectorXd& z) {
-  const Eigen::VectorXd off = closure_->errors(z);
-  const double stiffness = K.cwiseAbs().maxCoeff();
-  Eigen::MatrixXd all(nz_ + off.size(), nz_);
-  all << K, stiffness * closure_->jacobian(z);
+  const Eigen::VectorXd off = held_->errors(z);
+  const Eigen::MatrixXd J = held_->jacobian(z);
+  const Eigen::Index loops = off.size();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(nz_ + loops, nz_ + loops);
+  all.topLeftCorner(nz_, nz_) = K;
+  all.topRightCorner(nz_, loops) = J.transpose();
+  all.bottomLeftCorner(loops, nz_) = J;
   Eigen::VectorXd right(all.rows());
-  right << force, stiffness * off;
-  return -all.completeOrthogonalDecomposition().solve(right);
+  right << force, off;
+  return -all.fullPivLu().solve(right).head(nz_);
 }
 
 // By differences of the acceleration itself: M, h, J and the bias all move.
@@ -104,7 +131,7 @@ void RigidBodies::loop_slope(const double* x, const Eigen::VectorXd& Q, const Ei
                              Eigen::MatrixXd& slope) {
   constexpr double kPositionStep = 1e-6;  // rad or m
   constexpr double kVelocityStep = 1e-4;
-  LoopRows& rows = closure_->rows();
+  LoopRows& rows = held_->rows();
   Eigen::VectorXd moved = Vector(x, 2 * nz_);
   Eigen::MatrixXd M, J;
   Eigen::VectorXd h, bias;
@@ -131,12 +158,12 @@ double RigidBodies::close_loops(double* x) {
   const Eigen::MatrixXd Y = loop_Y_;
   Eigen::Map<Eigen::VectorXd> z(x, nz_);
   Eigen::Map<Eigen::VectorXd> w(x + nz_, nz_);
-  Eigen::VectorXd off = closure_->errors(z);
+  Eigen::VectorXd off = held_->errors(z);
   const double before = off.cwiseAbs().maxCoeff();
   double size = before;
   for (int round = 0; round < kRounds && size > 0.0; ++round) {
-    const Eigen::VectorXd there = z - Y * (closure_->jacobian(z) * Y).partialPivLu().solve(off);
-    const Eigen::VectorXd left = closure_->errors(there);
+    const Eigen::VectorXd there = z - Y * (held_->jacobian(z) * Y).partialPivLu().solve(off);
+    const Eigen::VectorXd left = held_->errors(there);
     const double smaller = left.cwiseAbs().maxCoeff();
     if (!(smaller < size)) {
       break;
@@ -145,11 +172,11 @@ double RigidBodies::close_loops(double* x) {
     off = left;
     size = smaller;
   }
-  if (!closure_->is_closed(z)) {
+  if (!held_->is_closed(z)) {
     throw std::runtime_error(model_.file + ": loop " + model_.loops.front().name +
                              ": found a state whose loops cannot be closed near it");
   }
-  const Eigen::MatrixXd& J = closure_->jacobian(z);
+  const Eigen::MatrixXd& J = held_->jacobian(z);
   const Eigen::PartialPivLU<Eigen::MatrixXd> onto(J * Y);
   for (int round = 0; round < 2; ++round) {  // the second takes off the rounding of the first
     w -= Y * onto.solve(J * w);
@@ -160,7 +187,7 @@ double RigidBodies::close_loops(double* x) {
 Eigen::Vector2d RigidBodies::loop_errors(const double* x) {
   const Vector z(x, nz_);
   const Vector w(x + nz_, nz_);
-  return {closure_->errors(z).cwiseAbs().maxCoeff(), (closure_->jacobian(z) * w).cwiseAbs().maxCoeff()};
+  return {held_->errors(z).cwiseAbs().maxCoeff(), (held_->jacobian(z) * w).cwiseAbs().maxCoeff()};
 }
 
 // z moves by P dz, P = 1 - Y (J Y)^-1 J; w by P dw less what the turn of J asks for.
@@ -176,9 +203,9 @@ Eigen::MatrixXd RigidBodies::closing_slope(const double* x) {
   Eigen::VectorXd moved = z;
   for (int i = 0; i < nz_; ++i) {
     moved[i] = z[i] + kStep;
-    turn.col(i) = closure_->jacobian(moved) * w;
+    turn.col(i) = held_->jacobian(moved) * w;
     moved[i] = z[i] - kStep;
-    turn.col(i) -= closure_->jacobian(moved) * w;
+    turn.col(i) -= held_->jacobian(moved) * w;
     moved[i] = z[i];
   }
   turn /= 2.0 * kStep;

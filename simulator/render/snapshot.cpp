@@ -117,6 +117,9 @@ void Snapshots::find_cables() {
       continue;
     }
     const model::Ratio* ratio = model.find_ratio(use.at);
+    if (ratio == nullptr) {
+      continue;  // a rod of a loop
+    }
     const MainJoint main = main_joint(model, ratio->to.front().of);
     if (main.joint >= 0 && ratio->to.front().factor != 0.0 && seen.insert(ratio->name).second) {
       cables_.push_back({ratio->name, main.joint, -1.0 / (ratio->to.front().factor * main.factor)});

@@ -57,7 +57,7 @@ Eigen::VectorXd solve_for(model::Plant& plant, const std::vector<Named>& wanted,
     y[r] = value - (velocities ? 0.0 : plant.position_of(name, x.data()));
   }
   C.bottomRows(stretch.rows()) = stretch;
-  if (plant.has_loops()) {
+  if (plant.closure() != nullptr) {
     return on_loops(plant, C, y, velocities, at);
   }
   return C.completeOrthogonalDecomposition().solve(y);
@@ -110,7 +110,7 @@ Eigen::VectorXd start_state(model::Plant& plant, const Start& start) {
     }
   }
   // Where loops tie the pose's coordinates together, those that are not asked to move follow the others.
-  std::vector<Named> motion = plant.has_loops() ? std::vector<Named>() : pose;
+  std::vector<Named> motion = plant.closure() != nullptr ? std::vector<Named>() : pose;
   for (auto& [name, value] : motion) {
     value = 0.0;
   }
@@ -119,7 +119,7 @@ Eigen::VectorXd start_state(model::Plant& plant, const Start& start) {
     known != nullptr ? void(*known = value) : void(motion.emplace_back(name, value));
   }
   x.segment(n, n) = solve_for(plant, motion, true, x.head(n));
-  if (plant.has_loops()) {
+  if (plant.closure() != nullptr) {
     check(plant, motion, x, true);
   }
   if (!lifted) {

@@ -25,7 +25,7 @@ Freedom freedom_of(const model::Model& model, const std::vector<validation::Lock
   }
   model::Plant plant(model,
                      held);  // refuses contradictory ratios, singular mass matrices, loops that never close
-  const int tied = plant.has_loops() ? plant.closure()->size() : 0;
+  const int tied = plant.has_loops() ? plant.holding()->size() : 0;
   return {plant.positions() - tied, plant.states()};
 }
 

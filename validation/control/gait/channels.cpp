@@ -141,7 +141,7 @@ bool Channels::add_foot(const model::Model& model, const std::string& name) {
 bool Channels::add_place(const model::Model& model, const std::string& name) {
   if (begins_with(name, "stretch_")) {
     const std::string of = name.substr(8);
-    if (model.find_ratio(of) == nullptr) {
+    if (model.find_ratio(of) == nullptr && model.find_rod(of) == nullptr) {
       return false;
     }
     push(name, model::position_unit(model.place_is_angular(effects::Place::ratio, of)),

@@ -19,6 +19,9 @@ namespace {
 
 using effects::Place;
 
+// The two sides of what is released swing against each other: about a quarter of their sum.
+constexpr double kPartThatSwings = 0.25;
+
 /// Typical magnitudes of the motion of a place over the train windows, from the measurements.
 class PlaceMotions {
  public:
@@ -28,11 +31,16 @@ class PlaceMotions {
   effects::Scales at(Place place, const std::string& name) {
     const std::string key = effects::to_string(place) + " " + name;
     const auto found = known_.find(key);
-    return found != known_.end() ? found->second : known_[key] = measure(place, name);
+    if (found != known_.end()) {
+      return found->second;
+    }
+    const bool is_rod = place == Place::ratio && pool_.model().find_rod(name) != nullptr;
+    return known_[key] = is_rod ? measure_rod(name) : measure(place, name);
   }
 
  private:
   effects::Scales measure(Place place, const std::string& name);
+  effects::Scales measure_rod(const std::string& name);
 
   PredictorPool& pool_;
   const std::vector<FreeParameter>& parameters_;
@@ -121,9 +129,16 @@ effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
   scales.inertia = std::max(scales.inertia, 1e-12);
   scales.force = std::max(scales.force, 1e-9);
   if (place == Place::ratio) {
-    // The two sides of a released ratio swing against each other: about a quarter of their sum.
-    scales.inertia *= 0.25;
+    scales.inertia *= kPartThatSwings;
   }
+  return scales;
+}
+
+// The rest of the mechanism drives a rod as a motor does a ratio.
+effects::Scales PlaceMotions::measure_rod(const std::string& name) {
+  const model::Plant::Lever lever = model::Plant(pool_.model(), {}).lever_of(name);
+  effects::Scales scales = effects::seen_from(at(Place::coordinate, lever.coordinate), lever.travel);
+  scales.inertia *= kPartThatSwings;
   return scales;
 }
 

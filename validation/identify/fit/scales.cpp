@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/effects/parameters.h"
 #include "simulator/trace/error.h"
 #include "validation/identify/diagnose/candidates.h"
 
@@ -29,17 +30,6 @@ double travel(model::Plant& plant, const std::string& at, const std::string& of)
   return 1.0;
 }
 
-effects::Scales seen_from(const effects::Scales& scales, double travel) {
-  effects::Scales seen = scales;
-  const double size = std::abs(travel);
-  seen.position *= size;
-  seen.velocity *= size;
-  seen.center *= travel;
-  seen.force /= size;
-  seen.inertia /= size * size;
-  return seen;
-}
-
 }  // namespace
 
 effects::Scales scales_at(const model::Model& model, const std::shared_ptr<const effects::Law>& law,
@@ -56,7 +46,7 @@ effects::Scales scales_at(const model::Model& model, const std::shared_ptr<const
     const auto& same = candidate.same_places;
     if (std::find(same.begin(), same.end(), at) != same.end()) {
       model::Plant plant(model, {});
-      return seen_from(candidate.scales, travel(plant, at, candidate.at));
+      return effects::seen_from(candidate.scales, travel(plant, at, candidate.at));
     }
   }
   return scales_at(model, *law, at);  // a place that the trials do not show, such as an unmeasured sensor
@@ -72,8 +62,10 @@ effects::Scales scales_at(const model::Model& model, const effects::Law& law, co
   if (!is_a_position(place)) {
     return scales;
   }
-  const std::string seen = place == Place::ratio ? model.find_ratio(at)->motor : at;
   model::Plant plant(model, {});
+  const bool is_rod = place == Place::ratio && model.find_rod(at) != nullptr;
+  const model::Plant::Lever lever = is_rod ? plant.lever_of(at) : model::Plant::Lever{at, 1.0};
+  const std::string seen = place == Place::ratio && !is_rod ? model.find_ratio(at)->motor : lever.coordinate;
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   const Eigen::VectorXd idle = Eigen::VectorXd::Zero(plant.motors());
   Eigen::VectorXd rate(plant.states());
@@ -86,7 +78,7 @@ effects::Scales scales_at(const model::Model& model, const effects::Law& law, co
   if (motor != nullptr && motor->torque_limit.value > 0.0) {
     scales.force = motor->torque_limit.value;
   }
-  return scales;
+  return is_rod ? effects::seen_from(scales, lever.travel) : scales;
 }
 
 }  // namespace plumbline::validation

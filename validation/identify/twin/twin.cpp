@@ -144,7 +144,7 @@ Eigen::VectorXd start_state(model::Plant& plant, const Experiment& experiment) {
     right[i] = start.position - offset;
   }
   C.middleRows(starts, stretch.rows()) = 1e-2 * stretch;
-  if (plant.has_loops()) {
+  if (plant.closure() != nullptr) {
     const Eigen::Index named = starts + stretch.rows();
     x.head(nz) = on_loops(plant, experiment, C.topRows(named), right.head(named));
     settle_at_start(plant, experiment, x);
