@@ -34,6 +34,7 @@
 #include "simulator/effects/imu_scale.h"
 #include "simulator/effects/link_inertia.h"
 #include "simulator/effects/load_friction.h"
+#include "simulator/effects/lost_counts.h"
 #include "simulator/effects/lugre.h"
 #include "simulator/effects/payload.h"
 #include "simulator/effects/preload.h"
@@ -108,6 +109,7 @@ Catalogue Catalogue::all() {
       std::make_shared<const EncoderScale>(),
       std::make_shared<const EncoderEccentricity>(),
       std::make_shared<const SensorLag>(),
+      std::make_shared<const LostCounts>(),
       std::make_shared<const ImuBias>(),
       std::make_shared<const ImuScale>(),
       std::make_shared<const ImuMisalignment>(),

@@ -68,6 +68,9 @@ std::vector<int> carried_states(const PlantDynamics& plant) {
       add(*slot.law, slot.state);
     }
   }
+  for (const LossSlot& slot : plant.losses().slots()) {
+    add(*slot.law, slot.state);
+  }
   return indices;
 }
 
@@ -83,6 +86,9 @@ std::vector<int> carried_state_effects(const PlantDynamics& plant) {
     const auto last =
         std::find_if(chain.rbegin(), chain.rend(), [](const auto& one) { return one.state >= 0; });
     std::for_each(last, chain.rend(), [&](const ActuatorSlot& slot) { effects.push_back(slot.effect); });
+  }
+  for (const LossSlot& slot : plant.losses().slots()) {
+    effects.push_back(slot.effect);
   }
   return effects;
 }
@@ -174,6 +180,9 @@ void settle(const PlantDynamics& plant, const double* command, double* x) {
     if (slot.state >= 0 && !slot.at_motor) {
       std::fill_n(x + slot.state, slot.law->state_count(), 0.0);
     }
+  }
+  for (const LossSlot& slot : plant.losses().slots()) {
+    x[slot.state] = 0.0;
   }
 }
 

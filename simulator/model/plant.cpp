@@ -109,6 +109,11 @@ void Plant::carry_states(const double* from, const double* to, const double* com
   model::carry_states(*dynamics_, from, to, command, h, x);
 }
 
+bool Plant::loses_counts() const { return !dynamics_->losses().empty(); }
+void Plant::carry_losses(int sensor, const Eigen::VectorXd& rates, double h, double* x) const {
+  dynamics_->losses().carry(sensor, rates, h, x);
+}
+
 Energetics Plant::energetics(const double* x, const double* command) {
   return model::energetics(*dynamics_, x, command);
 }

@@ -46,7 +46,7 @@ class Plant {
   /// "position of mLA_left", "velocity of ..." (joint, motor or pulley), "bristle of lugre at mLS".
   std::vector<std::string> state_names() const;
   /// Indices in x of the hidden states that the past determines: those of force laws (bristles), which follow
-  /// the motion, and those of actuators, which follow the commands.
+  /// the motion, those of actuators, which follow the commands, and what sensors have lost.
   std::vector<int> carried_states() const;
   /// The effects whose parameters decide what they are carried to.
   std::vector<int> carried_state_effects() const;
@@ -133,8 +133,15 @@ class Plant {
   /// commands that hold meanwhile (delayed already); written behind the positions and velocities of x. By the
   /// exponential Euler method at the middle (Hochbruck and Ostermann, Acta Numerica 19, 2010), stable for
   /// stiff bristles and exact for a lag of first order; a law's states that are several by the linearly
-  /// implicit midpoint rule.
+  /// implicit midpoint rule. What sensors have lost is left to carry_losses().
   void carry_states(const double* from, const double* to, const double* command, double h, double* x) const;
+
+  /// Does any sensor lose something of what it shows (effects/losing_sensor_law.h)?
+  bool loses_counts() const;
+  /// The states of what a sensor has lost, 0 where the record begins, carried on over samples of h seconds in
+  /// which its reading changed at `rates`: what the sensor itself showed is enough to say what it missed,
+  /// whatever other sensors make of the motion. The sensor's other laws are taken to show rates as they are.
+  void carry_losses(int sensor, const Eigen::VectorXd& rates, double h, double* x) const;
 
   /// Switching functions of all force laws.
   int switch_count() const;
@@ -189,9 +196,10 @@ class Plant {
   /// d(outputs)/d(parameters) at x, sensors x parameters.
   void output_tangent(const double* x, const std::vector<ParameterId>& parameters,
                       const Eigen::VectorXd& steps, Eigen::MatrixXd& D);
-  /// d(outputs)/d(positions, velocities) with the sensors' own scale effects, sensors x 2 positions; a force
-  /// plate's row is zero. Of an orientation: the turn about the sensor's own axes. Of an accelerometer: with
-  /// the accelerations d2z/dt2 held that `command` gives; what their change adds is acceleration_map().
+  /// d(outputs)/d(positions, velocities) with the sensors' own scale effects, sensors x 2 positions, or
+  /// d(outputs)/dx, sensors x states, where a sensor loses counts; a force plate's row is zero. Of an
+  /// orientation: the turn about the sensor's own axes. Of an accelerometer: with the accelerations d2z/dt2
+  /// held that `command` gives; what their change adds is acceleration_map().
   void output_jacobian(const double* x, Eigen::MatrixXd& C, const double* command = nullptr);
   /// d(outputs)/d(d2z/dt2), sensors x positions: of accelerometers, zero for all others.
   Eigen::MatrixXd acceleration_map(const double* x);

@@ -36,7 +36,8 @@ PlantDynamics::PlantDynamics(const Model& model, const std::vector<Lock>& locks,
       n_tree_(map_.tree()),
       nz_(map_.independent()),
       feet_(model_, map_, std::move(terrain)),
-      rods_(model_, map_) {
+      rods_(model_, map_),
+      losses_(model_, map_, values_) {
   torque_ = Eigen::VectorXd::Zero(motors());  // loads may be asked for before the first evaluation
   gear_load_ = torque_;
   motor_pulleys_ = torque_;
@@ -118,6 +119,7 @@ void PlantDynamics::place_effects() {
   }
   feet_.take(values_, next_state);
   place_links(next_state);
+  losses_.take(next_state);
   change_ground();
   nx_ = next_state;
   switch_count_ = static_cast<int>(g.size() + feet_.slots().size()) + link_points();
@@ -184,6 +186,9 @@ std::vector<std::string> PlantDynamics::state_names() const {
     for (const ActuatorSlot& slot : chain) {
       label(slot.effect, slot.state);
     }
+  }
+  for (const LossSlot& slot : losses_.slots()) {
+    label(slot.effect, slot.state);
   }
   for (const FootSlot& slot : feet_.slots()) {
     const Foot& foot = model_.feet[static_cast<std::size_t>(slot.foot)];

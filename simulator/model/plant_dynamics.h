@@ -16,6 +16,7 @@
 #include "simulator/model/plant_values.h"
 #include "simulator/model/released_rods.h"
 #include "simulator/model/rigid_bodies.h"
+#include "simulator/model/sensor_losses.h"
 
 namespace plumbline::model {
 
@@ -55,6 +56,7 @@ class PlantDynamics {
   GroundFeet& feet() { return feet_; }
   const GroundFeet& feet() const { return feet_; }
   const LinkContacts* links() const { return links_.get(); }  ///< null: none that has a law
+  const SensorLosses& losses() const { return losses_; }
   bool meets_anything() const { return !feet_.empty() || links_ != nullptr; }
   int link_points() const { return links_ == nullptr ? 0 : links_->points(); }
 
@@ -115,6 +117,7 @@ class PlantDynamics {
   GroundFeet feet_;
   std::unique_ptr<LinkContacts> links_;
   ReleasedRods rods_;
+  SensorLosses losses_;
 
   // Work space of the last evaluation.
   Eigen::VectorXd Q_, torque_, acceleration_, on_joints_;

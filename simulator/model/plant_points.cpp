@@ -130,7 +130,7 @@ void PlantReadings::feel_points(Eigen::VectorXd acceleration, Eigen::MatrixXd& C
       C.row(slot.sensor).head(nz_) = along * felt.turn_by_position * S_tree_;
     } else {
       C.row(slot.sensor).head(nz_) = along * felt.pull_by_position * S_tree_;
-      C.row(slot.sensor).tail(nz_) = along * felt.pull_by_velocity * S_tree_;
+      C.row(slot.sensor).segment(nz_, nz_) = along * felt.pull_by_velocity * S_tree_;
     }
   }
 }

@@ -147,6 +147,7 @@ void PlantDynamics::rate(const double* x, const double* command, double* xdot) {
     xdot[i] = x[nz_ + i];
     xdot[nz_ + i] = acceleration_[i];
   }
+  losses_.write_rates(x, xdot);
 }
 
 Eigen::VectorXd PlantDynamics::fall(const double* x) {

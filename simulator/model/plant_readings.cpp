@@ -56,7 +56,7 @@ void PlantReadings::outputs(const double* x, double* y, const double* command) {
     const std::vector<SensorSlot>& chain = sensor_effects_[static_cast<std::size_t>(s)];
     if (!chain.empty()) {
       const double lag = lag_of(chain, [&](const SensorSlot& slot) { return values(slot.effect); });
-      reading -= lag * output_map_.row(s).dot(Vector(x + nz_, nz_));
+      reading += plant_.losses().lost(s, x) - lag * output_map_.row(s).dot(Vector(x + nz_, nz_));
     }
     for (const SensorSlot& slot : chain) {
       reading = slot.law->reading(reading, values(slot.effect));
@@ -86,7 +86,11 @@ void PlantReadings::plate_outputs(const double* x, double* y) {
 }
 
 void PlantReadings::output_jacobian(const double* x, Eigen::MatrixXd& C, const double* command) {
-  C.setZero(sensors(), 2 * nz_);
+  const SensorLosses& losses = plant_.losses();
+  C.setZero(sensors(), losses.empty() ? 2 * nz_ : plant_.states());
+  for (const LossSlot& slot : losses.slots()) {
+    C(slot.sensor, slot.state) = 1.0;
+  }
   for (int s = 0; s < sensors(); ++s) {
     const bool rate = model_.sensors[static_cast<std::size_t>(s)].rate;
     C.row(s).segment(rate ? nz_ : 0, nz_) = output_map_.row(s);
@@ -98,10 +102,11 @@ void PlantReadings::output_jacobian(const double* x, Eigen::MatrixXd& C, const d
       continue;
     }
     const double lag = lag_of(chain, [&](const SensorSlot& slot) { return values(slot.effect); });
-    C.row(s).tail(nz_) -= lag * output_map_.row(s);
+    C.row(s).segment(nz_, nz_) -= lag * output_map_.row(s);
     const double late = lag * output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x + nz_, nz_));
-    double plus = actual[s] - late + 1e-6;
-    double minus = actual[s] - late - 1e-6;
+    const double middle = actual[s] + losses.lost(s, x) - late;
+    double plus = middle + 1e-6;
+    double minus = middle - 1e-6;
     for (const SensorSlot& slot : chain) {
       plus = slot.law->reading(plus, values(slot.effect));
       minus = slot.law->reading(minus, values(slot.effect));
@@ -119,8 +124,8 @@ void PlantReadings::output_tangent(const double* x, const std::vector<ParameterI
     if (chain.empty()) {
       continue;
     }
-    const double actual =
-        output_offset_[s] + output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
+    const double actual = output_offset_[s] + plant_.losses().lost(s, x) +
+                          output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x, nz_));
     const double speed = output_map_.row(s).dot(Eigen::Map<const Eigen::VectorXd>(x + nz_, nz_));
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);

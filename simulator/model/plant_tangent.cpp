@@ -98,6 +98,7 @@ void PlantTangent::effect_tangent(const double* x, const double* change, Eigen::
   }
   bodies_.accelerate_in_place(slopes_);
   A.middleRows(nz_, nz_) += slopes_;
+  plant_.losses().add_slopes(x, change, A);
 }
 
 // How far the place may move either way without a jump: where a stop has just been met or left, a difference
@@ -394,6 +395,7 @@ void PlantTangent::parameter_tangent(const SampleMotion& sample, const double* x
     }
     return;
   }
+  plant_.losses().add_parameter_slopes(x, sample.change, id, step, column);
   const std::string& at = plant_.model().effects[static_cast<std::size_t>(id.effect)].at;
   for (const FootSlot& slot : plant_.feet().slots()) {
     if (plant_.model().feet[static_cast<std::size_t>(slot.foot)].answers_to(at)) {

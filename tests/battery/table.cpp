@@ -153,6 +153,10 @@ const std::vector<Row>& leg_bench_rows() {
       {"sensor_lag", "mLS", "lag=2e-4|1.7e-3"},
       {"sensor_lag", "thigh", "lag=2e-4|1.7e-3"},
       {"sensor_lag", "knee", "lag=8e-4|7e-3"},
+      {"lost_counts", "mLA", "share=2e-3|6e-3|0.02,limit_speed=6"},
+      {"lost_counts", "mLS", "share=2e-3|6e-3|0.02,limit_speed=6"},
+      {"lost_counts", "thigh", "share=3e-3|0.01|0.03,limit_speed=0.25"},
+      {"lost_counts", "knee", "share=0.02|0.06|0.2,limit_speed=0.4"},
       {"encoder_offset", "mLA", "offset=7e-3|0.06"},
       {"encoder_scale", "mLA", "scale=1+1.5e-3|0.013"},
       {"encoder_offset", "mLS", "offset=9.1e-3|0.079"},
@@ -197,6 +201,7 @@ const std::vector<Row>& pendulum_rows() {
       {"com_shift", "arm", "x=5.5e-5|4.7e-4,z=-5.5e-5|-4.7e-4"},
       {"link_inertia", "arm", "x=3e-3|0.03,z=3e-3|0.03"},
       {"sensor_lag", "shoulder", "lag=3e-4|2.5e-3"},
+      {"lost_counts", "drive", "share=3e-3|0.01|0.03,limit_speed=10"},
       {"encoder_offset", "drive", "offset=8.3e-3|0.074"},
       {"encoder_scale", "shoulder", "scale=1+1.1e-3|9.8e-3"},
   };

@@ -144,6 +144,15 @@ TEST(Worlds, SlippingCouplingIsNearlyTheSimulatorsTwin) {
   EXPECT_LT(apart, 30.0);
 }
 
+// All or nothing of the way between two samples there, over a little of the speeds here: a floor of the 175
+// that are lost.
+TEST(Worlds, LostCountsAreNearlyTheSimulatorsTwin) {
+  const std::string hidden = "lost_counts@mLS:share=0.05,limit_speed=6,width=0.02";
+  const double apart = farthest("leg_bench", "robots/mabel/experiments/mimo.yaml", hidden, 1.0, false);
+  std::printf("%.2f floors\n", apart);
+  EXPECT_LT(apart, 3.0);
+}
+
 // Away from standstill, where one of the two is smoothed and the other not.
 TEST(Worlds, GearEfficiencyIsTheSimulatorsTwin) {
   EXPECT_LT(farthest("pendulum", "tests/robots/pendulum/experiments/steps.yaml",

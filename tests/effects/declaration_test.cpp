@@ -110,7 +110,7 @@ TEST(Catalogue, HasUniqueNamesThatFindFinds) {
     EXPECT_TRUE(names.insert(law->declaration().name).second) << law->declaration().name;
     EXPECT_EQ(catalogue.find(law->declaration().name), law);
   }
-  EXPECT_EQ(names.size(), 51U);
+  EXPECT_EQ(names.size(), 52U);
   EXPECT_EQ(catalogue.find("no_such_effect"), nullptr);
 }
 

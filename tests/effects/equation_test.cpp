@@ -6,6 +6,7 @@
 #include <map>
 
 #include "simulator/effects/inertial_sensor_law.h"
+#include "simulator/effects/losing_sensor_law.h"
 #include "tests/effects/expression.h"
 #include "tests/effects/sampling.h"
 
@@ -93,6 +94,12 @@ TEST(WrittenEquation, IsTheReading) {
       Symbols symbols = symbols_of(*law, p, {});
       symbols["actual"] = actual;
       symbols["actual_rate"] = 0.0;
+      if (const auto losing = std::dynamic_pointer_cast<const LosingSensorLaw>(law)) {
+        symbols["lost"] = 0.0;
+        symbols["actual_rate"] = sampler.between(-6, 6);
+        expect_close(losing->loss_rate(symbols["actual_rate"], p.data()),
+                     equations.value("lost_rate", symbols), law->declaration().name);
+      }
       expect_close(sensor->reading(actual, p.data()), equations.value("reading", symbols),
                    law->declaration().name);
     }

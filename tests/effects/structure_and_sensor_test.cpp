@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulator/effects/late_sensor_law.h"
+#include "simulator/effects/losing_sensor_law.h"
 #include "tests/effects/rk4.h"
 #include "tests/effects/sampling.h"
 
@@ -92,6 +93,33 @@ TEST(SensorLag, IsTheGroupDelayOfAFilter) {
   const Rate rate = [&](const State& s) { return State{1.0, (speed * s[0] - s[1]) / time_constant}; };
   const State end = rk4(rate, {0.0, 0.0}, 0.2, 4000);  // time and what the filter shows
   EXPECT_NEAR(law->reading(speed * end[0], p.data()) - law->lag(p.data()) * speed, end[1], 1e-9);
+}
+
+// A counter that misses every fifth edge above 2 rad/s, counted edge by edge: 3 rad/s for 2 s, 1 rad/s back.
+TEST(LostCounts, MissesWhatACounterMisses) {
+  const auto law = std::dynamic_pointer_cast<const LosingSensorLaw>(Catalogue::all().find("lost_counts"));
+  ASSERT_TRUE(law);
+  const Values p = values_of(*law, {{"share", 0.2}, {"limit_speed", 2.0}});
+  const double edge = 1e-3;  // rad
+  int counted = 0;
+  int edges = 0;
+  double lost = 0.0;
+  const auto turn = [&](double speed, double time) {
+    const int crossed = static_cast<int>(std::lround(std::abs(speed) * time / edge));
+    for (int i = 0; i < crossed; ++i) {
+      ++edges;
+      const bool is_missed = std::abs(speed) > 2.0 && edges % 5 == 0;
+      counted += is_missed ? 0 : (speed > 0.0 ? 1 : -1);
+    }
+    lost += time * law->loss_rate(speed, p.data());
+  };
+  turn(3.0, 2.0);
+  turn(-1.0, 6.0);  // back where it was
+  EXPECT_NEAR(lost, counted * edge, 2.0 * edge);
+  EXPECT_NEAR(lost, -1.2, 2.0 * edge);
+  turn(-3.0, 2.0);  // what is missed the other way makes up for it
+  EXPECT_NEAR(lost, 0.0, 4.0 * edge);
+  EXPECT_TRUE(law->is_null(values_of(*law, {{"limit_speed", 2.0}}).data()));
 }
 
 }  // namespace

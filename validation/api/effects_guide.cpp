@@ -89,6 +89,8 @@ const std::vector<EffectGuide>& effects_guide() {
        "turn slowly and evenly through a whole turn"},
       {"sensor_lag", "sensors", "command_delay, actuator_lag, viscous",
        "pass one place at two speeds, both ways: the readings differ by twice lag and speed"},
+      {"lost_counts", "sensors", "encoder_scale, backlash, slipping_coupling",
+       "go away fast and come back slowly to a mark: what is missing there was lost on the way"},
       {"encoder_scale", "sensors", "a ratio, cable_stretch", "two marks whose distance is known"},
       {"imu_bias", "sensors", "gravity_tilt, imu_misalignment",
        "stand still in six positions, each axis up and down; a gyroscope at rest in any"},

@@ -194,7 +194,8 @@ std::string effect_picture(const effects::Law& law) {
   }
   const auto* sensor = dynamic_cast<const effects::SensorLaw*>(&law);
   const bool is_late = dynamic_cast<const effects::LateSensorLaw*>(&law) != nullptr;
-  return sensor != nullptr && !is_late ? of_sensor(*sensor) : "";
+  const bool is_of_time = is_late || law.state_count() > 0;
+  return sensor != nullptr && !is_of_time ? of_sensor(*sensor) : "";
 }
 
 }  // namespace plumbline::api

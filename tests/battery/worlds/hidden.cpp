@@ -131,11 +131,11 @@ const Named* find(const std::string& name) {
 
 // Of motors, bodies, sensors and the ground: carried out where these are.
 constexpr std::array kOthers{
-    "torque_bias", "torque_ripple", "winding", "battery", "harmonic_drive", "sensor_lag", "torque_saturation",
-    "voltage_limit", "thermal_motor", "torque_constant_error", "actuator_lag", "current_loop",
-    "command_delay", "bus_delay", "clock_drift", "rotor_inertia", "cable_stretch", "backlash", "added_mass",
-    "com_shift", "payload", "gravity_tilt", "encoder_offset", "encoder_scale", "encoder_eccentricity",
-    "ground_stiffness_error", "ground_damping_error", "ground_friction_error",
+    "torque_bias", "torque_ripple", "winding", "battery", "harmonic_drive", "sensor_lag", "lost_counts",
+    "torque_saturation", "voltage_limit", "thermal_motor", "torque_constant_error", "actuator_lag",
+    "current_loop", "command_delay", "bus_delay", "clock_drift", "rotor_inertia", "cable_stretch", "backlash",
+    "added_mass", "com_shift", "payload", "gravity_tilt", "encoder_offset", "encoder_scale",
+    "encoder_eccentricity", "ground_stiffness_error", "ground_damping_error", "ground_friction_error",
     // Laws that no catalogue has; equations in outside.cpp.
     "creeping_load", "tilting_mount", "held_reading", "heavy_bit", "slow_reversal", "weakening_ends"};
 

@@ -89,6 +89,21 @@ Vector positions_between(const Motion& motion, double at, double period) {
   return p0 + t * v0 + t * t * (3.0 * (p1 - p0) - 2.0 * v0 - v1) + t * t * t * (v0 + v1 - 2.0 * (p1 - p0));
 }
 
+// A counter that cannot follow misses a share of the way from one sample to the next, all or nothing of it:
+// no speeds over which it begins to.
+double missed_until(const Sensor& sensor, std::size_t index, const Rig& rig, const Motion& motion,
+                    Eigen::Index k, double period) {
+  const auto i = static_cast<Eigen::Index>(index);
+  double missed = 0.0;
+  double before = readings_of(rig, motion.positions.col(0))[i];
+  for (Eigen::Index j = 1; j <= k; ++j) {
+    const double now = readings_of(rig, motion.positions.col(j))[i];
+    missed += std::abs(now - before) > sensor.limit_speed * period ? sensor.lost_share * (now - before) : 0.0;
+    before = now;
+  }
+  return missed;
+}
+
 }  // namespace
 
 Eigen::VectorXd readings_at(const Rig& rig, const Motion& motion, Eigen::Index k, double period) {
@@ -100,6 +115,9 @@ Eigen::VectorXd readings_at(const Rig& rig, const Motion& motion, Eigen::Index k
       const double at = static_cast<double>(k - held) - rig.sensors[s].late / period;
       const auto i = static_cast<Eigen::Index>(s);
       readings[i] = readings_of(rig, positions_between(motion, at, period))[i];
+    }
+    if (rig.sensors[s].lost_share > 0.0) {
+      readings[static_cast<Eigen::Index>(s)] -= missed_until(rig.sensors[s], s, rig, motion, k, period);
     }
   }
   return readings;

@@ -198,6 +198,11 @@ bool change_sensor(const Hidden& e, Sensor& sensor) {
     sensor.late += e["lag"];
     return true;
   }
+  if (e.effect == "lost_counts") {
+    sensor.lost_share += e["share"];
+    sensor.limit_speed = e["limit_speed"];
+    return true;
+  }
   if (e.effect == "encoder_scale") {
     sensor.scale *= e["scale"];
     return true;

@@ -55,6 +55,7 @@ struct Sensor {
   double waves = 0.0, amplitude = 0.0, phase = 0.0;  ///< of an eccentric disc: amplitude cos(waves x - phase)
   double bit_error = 0.0, bit_step = 1.0;            ///< outside.h
   double held_share = 0.0;                           ///< chance that a reading is held for two samples
+  double lost_share = 0.0, limit_speed = 1.0;        ///< of the way between two samples faster than that
 };
 
 struct Rig;

@@ -21,7 +21,7 @@ const std::vector<std::vector<std::string>>& families() {
       {"torque_constant_error", "torque_bias", "torque_saturation", "voltage_limit", "thermal_motor"},
       {"cable_stretch", "backlash", "harmonic_drive", "slipping_coupling"},
       {"cogging", "torque_ripple"},
-      {"encoder_offset", "encoder_scale", "encoder_eccentricity", "sensor_lag"},
+      {"encoder_offset", "encoder_scale", "encoder_eccentricity", "sensor_lag", "lost_counts"},
       {"imu_bias", "imu_scale", "imu_misalignment"}};
   return kFamilies;
 }

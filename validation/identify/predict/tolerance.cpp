@@ -14,7 +14,7 @@ Eigen::MatrixXd slopes_of(model::Plant& plant, const Eigen::VectorXd& x, const d
   Eigen::MatrixXd C;
   plant.output_jacobian(x.data(), C, command);
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(C.rows(), plant.states());
-  slopes.leftCols(2 * nz) = C;
+  slopes.leftCols(C.cols()) = C;
   if (plant.model().has(model::PointReading::accelerometer)) {
     Eigen::MatrixXd A(plant.states(), plant.states());
     plant.stiff_jacobian(x.data(), command, A);

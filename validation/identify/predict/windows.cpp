@@ -57,6 +57,15 @@ void heat_up(const model::Plant& plant, const integrate::HeldCommands& commands,
   }
 }
 
+/// Where a sample's record begins, or the stretch of it without gaps.
+Eigen::Index beginning_of(const Trial& trial, Eigen::Index sample) {
+  Eigen::Index first = 0;
+  for (const Stretch& stretch : trial.stretches) {
+    first = stretch.first <= sample ? std::max(first, stretch.first) : first;
+  }
+  return first;
+}
+
 /// Channels x samples.
 Eigen::MatrixXd measured_channels(const Trial& trial) {
   Eigen::MatrixXd y(static_cast<Eigen::Index>(trial.measured.size()), trial.samples());
@@ -165,9 +174,7 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   const auto reach =
       static_cast<Eigen::Index>(std::lround((is_warm ? kHeat : options_.history) / trial_.period));
   Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
-  for (const Stretch& stretch : trial_.stretches) {
-    from = stretch.first <= window.first && !is_warm ? std::max(from, stretch.first) : from;
-  }
+  from = is_warm ? from : std::max(from, beginning_of(trial_, window.first));
   measure_motion(from, window.first);
   Eigen::VectorXd command(plant_.motors());
   is_warm || from == 0 ? commands_->before(command.data()) : commands_->at(from, 0, command.data());
@@ -183,6 +190,20 @@ void Predictor::carry_hidden(const Window& window, double* x) {
       plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
                           (next - breaks[b]) * trial_.period, x);
     }
+  }
+  if (plant_.loses_counts()) {
+    carry_losses(window.first, x);
+  }
+}
+
+// What a sensor has lost stays lost: carried from where the record begins, however long ago, with the mean of
+// its reading's rate between two samples.
+void Predictor::carry_losses(Eigen::Index to, double* x) const {
+  const Eigen::Index from = beginning_of(trial_, to);
+  for (int c = 0; c < channels(); ++c) {
+    const Eigen::VectorXd rates = 0.5 * (measured_rates_.row(c).segment(from, to - from) +
+                                         measured_rates_.row(c).segment(from + 1, to - from));
+    plant_.carry_losses(sensor_of_channel_[static_cast<std::size_t>(c)], rates, trial_.period, x);
   }
 }
 

@@ -229,6 +229,7 @@ class Predictor {
                           Eigen::VectorXd& x);
   void measure_motion(Eigen::Index from, Eigen::Index to);
   void carry_hidden(const Window& window, double* x);
+  void carry_losses(Eigen::Index to, double* x) const;
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                 const Eigen::VectorXd& steps);
 
