@@ -204,7 +204,15 @@ INSTANTIATE_TEST_SUITE_P(FastLag, TangentByParameters,
                                               {{"actuator_lag", "mLA", "time_constant", 6e-5, 0.1}}},
                                          Case{"half_a_sample",
                                               {"actuator_lag@mLA:time_constant=5e-4"},
-                                              {{"actuator_lag", "mLA", "time_constant", 5e-4, 0.1}}}),
+                                              {{"actuator_lag", "mLA", "time_constant", 5e-4, 0.1}}},
+                                         Case{"current_loop",
+                                              {"current_loop@mLA:time_constant=5e-4,damping_ratio=0.5"},
+                                              {{"current_loop", "mLA", "time_constant", 5e-4, 0.1},
+                                               {"current_loop", "mLA", "damping_ratio", 0.5, 0.1}}},
+                                         Case{"winding",
+                                              {"winding@mLA:time_constant=5e-4,slope=0.02"},
+                                              {{"winding", "mLA", "time_constant", 5e-4, 0.1},
+                                               {"winding", "mLA", "slope", 0.02, 0.1}}}),
                          [](const auto& chosen) { return chosen.param.label; });
 
 // Within a sample the thigh goes up to 3 mrad: the preload is there at once.

@@ -146,7 +146,8 @@ std::vector<std::string> places_for(const effects::Law& law, const std::vector<C
 }
 
 /// Families first: what has to be tried from values of its own costs a linearisation for each of them, and is
-/// tried at a few places only. A law without a family is tried everywhere.
+/// tried at a few places only. A law without a family is tried everywhere, and every law at a place of which
+/// no linear law tells anything: a rod of a loop.
 void keep_where_family_promises(const std::vector<Candidate>& candidates,
                                 const std::vector<Hypothesis>& tangents, const TiedPlaces& tied,
                                 std::vector<Hypothesis>& starts) {
@@ -154,7 +155,10 @@ void keep_where_family_promises(const std::vector<Candidate>& candidates,
   const auto is_elsewhere = [&](const Hypothesis& start) {
     const Candidate& candidate = candidate_of(candidates, start);
     const effects::Law& law = *candidate.law;
-    if (!are_of_one_family(law, law)) {
+    const bool is_told = std::any_of(tangents.begin(), tangents.end(), [&](const Hypothesis& one) {
+      return tied.are_one(candidate_of(candidates, one).at, candidate.at);
+    });
+    if (!are_of_one_family(law, law) || !is_told) {
       return false;
     }
     const std::string& name = law.declaration().name;
