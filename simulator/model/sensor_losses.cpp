@@ -14,11 +14,9 @@ void SensorLosses::take(int& next_state) {
       continue;
     }
     const Sensor& of = model_.sensors[static_cast<std::size_t>(sensor)];
-    if (of.shows_position()) {
-      slots_.push_back(
-          {law, static_cast<int>(e), sensor, next_state, map_.line_of(map_.full_direction(of.measures))});
-      next_state += law->state_count();
-    }
+    slots_.push_back(
+        {law, static_cast<int>(e), sensor, next_state, map_.line_of(map_.full_direction(of.measures))});
+    next_state += law->state_count();
   }
 }
 

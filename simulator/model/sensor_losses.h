@@ -21,9 +21,10 @@ struct LossSlot {
   LinearForm line;
 };
 
-/// The losses of all sensors of a model that show a position: d(lost)/dt = loss_rate(v), v the true rate of
-/// what the sensor measures, and its reading is made of the true position plus what was lost. Only laws that
-/// were not null when the model was built have a state: without one all of this does nothing.
+/// The losses of a model's sensors (only what shows a position is a place of such a law): d(lost)/dt =
+/// loss_rate(v), v the true rate of what the sensor measures, and its reading is made of the true position
+/// plus what was lost. Only laws that were not null when the model was built have a state: without one all
+/// of this does nothing.
 class SensorLosses {
  public:
   /// All three have to outlive the losses; `values` are those of the model's effects as they are now.

@@ -31,16 +31,6 @@ TEST_F(LostCountsOfARecord, AreWhatTheReadingLacks) {
   EXPECT_EQ(plant.state_names().back(), "lost of lost_counts at mLA");
 }
 
-// What shows a rate does not count: nothing is added up there.
-TEST_F(LostCountsOfARecord, AreNoneOfASensorOfRates) {
-  model::Plant counts(model_, {});
-  model_.sensors[static_cast<std::size_t>(model_.sensor_index("mLA"))].rate = true;
-  model::Plant plant(model_, {});
-  EXPECT_TRUE(counts.loses_counts());
-  EXPECT_FALSE(plant.loses_counts());
-  EXPECT_EQ(plant.states(), counts.states() - 1);
-}
-
 // From the readings alone, as they were made with quantisation, without their noise of a derivative: to a
 // share of what was lost.
 TEST_F(LostCountsOfARecord, AreCarriedFromWhereItBegins) {
