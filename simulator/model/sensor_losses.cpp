@@ -83,7 +83,9 @@ void SensorLosses::add_parameter_slopes(const double* x, const double* change, P
 }
 
 // The reading's rate is the true one and what is lost of it, r = v + loss_rate(v): by fixed-point steps from
-// v = r. Just above a limit two true rates may show the same; this finds the one at which less is lost.
+// v = r. Where a large share is lost at once two true rates show the same, from (1 - share) limit to the
+// limit; this finds the one at which less is lost. What is carried is right to a floor up to 3 % on the leg
+// bench, and 24 floors of 775 off at 10 % (encoder of mLA, 2 s).
 double SensorLosses::true_rate(int sensor, double reading_rate) const {
   constexpr int kSteps = 30;
   double rate = reading_rate;
