@@ -4,6 +4,7 @@
 #include "contact/ground_coulomb.h"
 #include "contact/ground_friction.h"
 #include "contact/ground_normal.h"
+#include "contact/ground_turning.h"
 
 namespace plumbline::contact {
 
@@ -15,7 +16,9 @@ std::vector<std::shared_ptr<const effects::Law>> ground_laws() {
           ground_stiffness_error(),
           ground_damping_error(),
           ground_friction_error(),
-          ground_height_error()};
+          ground_height_error(),
+          rolling_friction(),
+          spinning_friction()};
 }
 
 }  // namespace plumbline::contact

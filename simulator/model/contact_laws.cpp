@@ -14,6 +14,9 @@ void ContactLaws::take(const Model& model, const std::vector<effects::Values>& v
     if (const auto* change = dynamic_cast<const contact::GroundChangeLaw*>(use.law.get())) {
       changes.push_back({change, e});
     }
+    if (const auto* turn = dynamic_cast<const contact::TurningLaw*>(use.law.get())) {
+      turns.push_back({turn, e});
+    }
     if (use.law->is_null(values[static_cast<std::size_t>(e)].data())) {
       continue;
     }
@@ -59,6 +62,15 @@ Eigen::Vector3d ContactLaws::force(double depth, double rate, const Eigen::Vecto
     }
   }
   return force;
+}
+
+Eigen::Vector3d ContactLaws::moment(const Eigen::Vector3d& turn, double normal,
+                                    const std::vector<effects::Values>& values) const {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const Turn& use : turns) {
+    moment += use.law->moment(turn, normal, values[static_cast<std::size_t>(use.effect)].data());
+  }
+  return moment;
 }
 
 }  // namespace plumbline::model

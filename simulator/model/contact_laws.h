@@ -8,6 +8,7 @@
 
 #include "contact/contact_law.h"
 #include "contact/ground_change.h"
+#include "contact/ground_turning.h"
 #include "simulator/model/model.h"
 
 namespace plumbline::model {
@@ -34,13 +35,18 @@ struct ContactLaws {
     const contact::GroundChangeLaw* law;
     int effect;
   };
+  struct Turn {
+    const contact::TurningLaw* law;
+    int effect;
+  };
   /// Change and law that it has been applied to: contacts of a group share both.
   using Applied = std::vector<std::pair<int, int>>;
 
   std::vector<Normal> normals;
   std::vector<Drag> drags;
   std::vector<Change> changes;
-  double height = 0.0;  ///< of all changes, m: the contact is as much deeper
+  std::vector<Turn> turns;  ///< also those at null values: they have no state
+  double height = 0.0;      ///< of all changes, m: the contact is as much deeper
 
   /// Takes the effects at the places that `here` holds for; states are counted from next_state on.
   void take(const Model& model, const std::vector<effects::Values>& values,
@@ -54,6 +60,9 @@ struct ContactLaws {
   /// sinks with `rate`, m/s. Rates of states are written to xdot where it is given.
   Eigen::Vector3d force(double depth, double rate, const Eigen::Vector2d& slip, const double* x,
                         const std::vector<effects::Values>& values, double* xdot) const;
+  /// On what turns with `turn`, rad/s, under the normal force, N m; both in axes whose third is the normal.
+  Eigen::Vector3d moment(const Eigen::Vector3d& turn, double normal,
+                         const std::vector<effects::Values>& values) const;
 };
 
 }  // namespace plumbline::model

@@ -49,6 +49,7 @@ GroundFeet GroundFeet::only(const FootSlot& slot, bool with_drags) const {
   one.slots_.assign(1, slot);
   if (!with_drags) {
     one.slots_[0].drags.clear();
+    one.slots_[0].turns.clear();
   }
   return one;
 }
@@ -69,6 +70,7 @@ Touch GroundFeet::touch(const FootSlot& slot, const TreeDynamics& tree) const {
   touch.position =
       tree.station(slot.body, model_.feet[static_cast<std::size_t>(slot.foot)].point) + below(slot);
   touch.velocity = tree.station_velocity(slot.body, touch.position);
+  touch.turn = tree.angular_velocity(slot.body);
   const Eigen::Vector2d left = tree.rotation(slot.body).col(1).head<2>();
   if (!slot.keeps_axes && left.norm() > 1e-3) {  // a link on its side has no left: then the world's
     touch.left = left.normalized();
@@ -87,6 +89,7 @@ void GroundFeet::press(const FootSlot& slot, const double* x, const Values& valu
   touch.force.setZero();
   touch.force.z() = force.z();
   touch.force.head<2>() += force.x() * forward + force.y() * touch.left;
+  touch.moment = slot.moment(touch.turn, force.z(), values);
 }
 
 void GroundFeet::add_forces(const TreeDynamics& tree, const double* x, const Values& values,
@@ -100,6 +103,9 @@ void GroundFeet::add_forces(const TreeDynamics& tree, const double* x, const Val
     press(slot, x, values, at, xdot);
     if (!at.force.isZero(0.0)) {
       tree.add_force(slot.body, at.position, at.force, on_joints_);
+    }
+    if (!at.moment.isZero(0.0)) {
+      tree.add_moment(slot.body, at.moment, on_joints_);
     }
   }
   for (int j = 0; j < map_.tree(); ++j) {
@@ -132,7 +138,7 @@ void GroundFeet::add_power(const TreeDynamics& tree, const double* x, const Valu
     }
     // The energy in bristles scales with the load that presses them and leaves with it; what sliding takes is
     // booked as it goes.
-    e.dissipated -= at.force.head<2>().dot(at.velocity.head<2>());
+    e.dissipated -= at.force.head<2>().dot(at.velocity.head<2>()) + at.moment.dot(at.turn);
   }
 }
 

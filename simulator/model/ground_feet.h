@@ -58,6 +58,8 @@ class GroundFeet {
 
   /// d(foot's velocity)/d(dz/dt), 3 x positions.
   const Eigen::MatrixXd& jacobian(const FootSlot& slot, const Touch& at, const TreeDynamics& tree);
+  /// d(turn)/d(dz/dt), 3 x positions.
+  Eigen::Matrix3Xd turn_jacobian(const FootSlot& slot, const TreeDynamics& tree) const;
   /// Adds the slopes of the forces to `slopes` (positions x states), those of the rates of bristles to A.
   /// With the change of x over a motion they are means on the way (Plant::tangent); null: where it stands.
   void add_slopes(const TreeDynamics& tree, const double* x, const Values& values, const double* change,
@@ -76,6 +78,7 @@ class GroundFeet {
   }
   Eigen::Vector3d below(const FootSlot& slot) const;
   void add_foot_slopes(const FootSlot& slot, const Touch& at, const Touch& half, SlopesAt& by);
+  void add_moment_slopes(const FootSlot& slot, const Touch& at, const double* change, SlopesAt& by);
   void add_bristle_slopes(const FootSlot& slot, const Touch& at, SlopesAt& by);
   void find_turning(const FootSlot& slot, const Touch& at, const TreeDynamics& tree);
   void add_leverage_slopes(const FootSlot& slot, const Touch& at, const double* x, SlopesAt& by) const;

@@ -49,6 +49,9 @@ void GroundFeet::add_slopes(const TreeDynamics& tree, const double* x, const Val
       add_foot_slopes(slot, at, half, by);
     }
     add_bristle_slopes(slot, at, by);
+    if (!slot.turns.empty() && at.depth > 0.0) {
+      add_moment_slopes(slot, at, change, by);
+    }
     if (change != nullptr) {
       add_leverage_slopes(slot, at, x, by);
     }
@@ -130,6 +133,60 @@ void GroundFeet::add_foot_slopes(const FootSlot& slot, const Touch& at, const To
       }
     }
   }
+}
+
+Eigen::Matrix3Xd GroundFeet::turn_jacobian(const FootSlot& slot, const TreeDynamics& tree) const {
+  return tree.turn_jacobian(slot.body) * map_.S_tree();
+}
+
+// By the turn, as wide as it changes on the way, and by what changes the normal force. Over a motion also
+// what turning the leg does to the turn and to the leverage of the moment.
+void GroundFeet::add_moment_slopes(const FootSlot& slot, const Touch& at, const double* change,
+                                   SlopesAt& by) {
+  const double* const x = moved_x_.data();
+  const Eigen::Index n = map_.independent();
+  const Eigen::Matrix3Xd W = turn_jacobian(slot, by.tree);
+  const Eigen::Vector3d half =
+      change == nullptr ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                        : Eigen::Vector3d(0.5 * W * Eigen::Map<const Eigen::VectorXd>(change + n, n));
+  Eigen::Matrix3Xd turning = Eigen::Matrix3Xd::Zero(3, n);
+  if (change != nullptr) {
+    Eigen::Matrix3Xd by_joints;
+    by.tree.turn_slope(slot.body, by_joints);
+    turning = by_joints * map_.S_tree();
+  }
+  const auto slope = [&](double step, const auto& move) {
+    Touch plus = at;
+    Touch minus = at;
+    move(plus, step);
+    move(minus, -step);
+    press(slot, x, by.values, plus, nullptr);
+    press(slot, x, by.values, minus, nullptr);
+    return Eigen::Vector3d((plus.moment - minus.moment) / (2.0 * step));
+  };
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::VectorXd column =
+        W.transpose() * slope(std::max(kSpeedStep, std::abs(half[k])),
+                              [k](Touch& touch, double step) { touch.turn[k] += step; });
+    by.forces.middleCols(n, n) += column * W.row(k);
+    by.forces.leftCols(n) += column * turning.row(k);
+  }
+  const Eigen::VectorXd by_depth =
+      W.transpose() * slope(std::max(kLeastDepthStep, kShareOfDepth * std::abs(at.depth)),
+                            [](Touch& touch, double step) { touch.depth += step; });
+  by.forces.leftCols(n) -= by_depth * J_.row(2);
+  const Eigen::VectorXd by_rate =
+      W.transpose() * slope(kSpeedStep, [](Touch& touch, double step) { touch.velocity.z() += step; });
+  by.forces.middleCols(n, n) += by_rate * J_.row(2);
+  if (change == nullptr) {
+    return;
+  }
+  by.forces.leftCols(n) += by_rate * V_.row(2);
+  Touch pressed = at;
+  press(slot, x, by.values, pressed, nullptr);
+  Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(map_.tree(), map_.tree());
+  by.tree.add_moment_slope(slot.body, pressed.moment, by_joints);
+  by.forces.leftCols(n) += map_.S_tree().transpose() * by_joints * map_.S_tree();
 }
 
 void GroundFeet::add_bristle_slopes(const FootSlot& slot, const Touch& at, SlopesAt& by) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/ground_turning.h"
 #include "simulator/model/inertial_sensors.h"
 #include "simulator/model/kinds.h"
 #include "simulator/model/limbs.h"
@@ -182,10 +183,21 @@ bool is_of_inertial(const effects::Law& law, effects::Place place) {
   return place == effects::Place::sensor && dynamic_cast<const effects::InertialSensorLaw*>(&law) != nullptr;
 }
 
+bool is_of_feet_alone(const effects::Law& law, effects::Place place) {
+  return place == effects::Place::foot && dynamic_cast<const contact::TurningLaw*>(&law) != nullptr;
+}
+
 }  // namespace
 
 std::vector<std::string> places_of(const Model& model, const effects::Law& law, effects::Place place) {
-  return is_of_inertial(law, place) ? inertial_sensors(model) : model.places(place);
+  if (is_of_inertial(law, place)) {
+    return inertial_sensors(model);
+  }
+  std::vector<std::string> names = model.places(place);
+  if (is_of_feet_alone(law, place)) {
+    names.resize(names.size() - model.contacts.size());  // they stand last
+  }
+  return names;
 }
 
 std::optional<effects::Place> find_place(const Model& model, const effects::Law& law, const std::string& at) {
@@ -202,10 +214,11 @@ std::string expected_place(const Model& model, const effects::Law& law, const st
   std::string kinds;
   std::vector<std::string> known;
   for (const effects::Place place : law.declaration().places) {
-    const std::string kind = is_of_inertial(law, place) ? "gyroscope or accelerometer of three axes"
-                             : place == effects::Place::foot && !model.contacts.empty()
-                                 ? "foot or contact"
-                                 : effects::to_string(place);
+    const std::string kind =
+        is_of_inertial(law, place) ? "gyroscope or accelerometer of three axes"
+        : place == effects::Place::foot && !model.contacts.empty() && !is_of_feet_alone(law, place)
+            ? "foot or contact"
+            : effects::to_string(place);
     kinds += (kinds.empty() ? "" : " or ") + kind;
     for (const std::string& name : places_of(model, law, place)) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {

@@ -70,6 +70,10 @@ void PlantTangent::ground_parameter_tangent(const FootSlot& slot, const double* 
   column += (up - now) / step;
   column.segment(nz_, nz_) += bodies_.accelerated(feet.jacobian(slot, before, bodies_.tree()).transpose() *
                                                   ((after.force - before.force) / step));
+  if (!slot.turns.empty()) {
+    column.segment(nz_, nz_) += bodies_.accelerated(feet.turn_jacobian(slot, bodies_.tree()).transpose() *
+                                                    ((after.moment - before.moment) / step));
+  }
 }
 
 // By what raises the ground, and by what carries the foot elsewhere.

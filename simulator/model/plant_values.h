@@ -31,7 +31,9 @@ struct Touch {
   /// Of its link (the frame's y) along the ground; of a robot that floats, where friction is alike in all
   /// directions, of the world: a link that tumbles has no left.
   Eigen::Vector2d left = Eigen::Vector2d::UnitY();
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the ground on the foot, N
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();    ///< angular velocity of its link, rad/s
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of the ground on the foot, N
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< the same, N m
 };
 
 /// How deep a foot is in the ground (under 0: above it), m, and its rate, m/s.

@@ -214,6 +214,45 @@ void TreeDynamics::add_force(int body, const Eigen::Vector3d& p_W, const Eigen::
   }
 }
 
+void TreeDynamics::add_moment(int body, const Eigen::Vector3d& moment, Eigen::VectorXd& Q) const {
+  for (int a = body; a >= 0; a = bodies_[static_cast<std::size_t>(a)].parent) {
+    const int coordinate = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (coordinate >= 0) {
+      Q[coordinate] += axis_[static_cast<std::size_t>(a)].head<3>().dot(moment);
+    }
+  }
+}
+
+void TreeDynamics::turn_slope(int body, Eigen::Matrix3Xd& slope) const {
+  slope.setZero(3, size_);
+  const Eigen::Vector3d turn = angular_velocity(body);
+  for (int b = body; b >= 0; b = bodies_[static_cast<std::size_t>(b)].parent) {
+    const TreeBody& it = bodies_[static_cast<std::size_t>(b)];
+    if (it.coordinate >= 0) {
+      const Eigen::Vector3d carrier =
+          it.parent >= 0 ? angular_velocity(it.parent) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      slope.col(it.coordinate) = axis_[static_cast<std::size_t>(b)].head<3>().cross(turn - carrier);
+    }
+  }
+}
+
+void TreeDynamics::add_moment_slope(int body, const Eigen::Vector3d& moment, Eigen::MatrixXd& K) const {
+  const auto carrier = [&](int b) { return bodies_[static_cast<std::size_t>(b)].parent; };
+  for (int a = body; a >= 0; a = carrier(a)) {
+    const int row = bodies_[static_cast<std::size_t>(a)].coordinate;
+    if (row < 0) {
+      continue;
+    }
+    const Eigen::Vector3d turned = axis_[static_cast<std::size_t>(a)].head<3>().cross(moment);
+    for (int b = carrier(a); b >= 0; b = carrier(b)) {
+      const int column = bodies_[static_cast<std::size_t>(b)].coordinate;
+      if (column >= 0) {
+        K(row, column) += axis_[static_cast<std::size_t>(b)].head<3>().dot(turned);
+      }
+    }
+  }
+}
+
 void TreeDynamics::station_velocity_slope(int body, const Eigen::Vector3d& p_W,
                                           Eigen::Matrix3Xd& slope) const {
   slope.setZero(3, size_);

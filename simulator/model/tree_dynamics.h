@@ -66,6 +66,13 @@ class TreeDynamics {
   /// h-convention generalised force of a force that acts on a body at a point: Q += J' force.
   void add_force(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,
                  Eigen::VectorXd& Q) const;
+  /// The same of a moment on the body.
+  void add_moment(int body, const Eigen::Vector3d& moment, Eigen::VectorXd& Q) const;
+  /// d(angular_velocity)/dq with the rates held, 3 x coordinates: of joint b, whose parent has W,
+  /// w_b x (w - W).
+  void turn_slope(int body, Eigen::Matrix3Xd& slope) const;
+  /// d(moment . w_a)/dq_b with the moment held: K_ab += moment . (w_b x w_a), b before a.
+  void add_moment_slope(int body, const Eigen::Vector3d& moment, Eigen::MatrixXd& K) const;
   /// d(J' force)/dq with the force held: K_ab += force . (w_b x J_a), b at or before a on the way from the
   /// world (what a joint turns takes the axes behind it along), and K_ba the same.
   void add_force_slope(int body, const Eigen::Vector3d& p_W, const Eigen::Vector3d& force,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact/contact_law.h"
+#include "contact/ground_turning.h"
 #include "simulator/model/places.h"
 
 namespace plumbline::battery {
@@ -236,7 +237,8 @@ std::vector<Row> expected_hopper_rows(const model::Model& model, const effects::
                         name == "link_inertia" || name == "ground_friction_error" ||
                         name == "clock_drift";  // a controller is in the loop of one of its experiments
     const bool is_the_ground = dynamic_cast<const contact::NormalLaw*>(law.get()) != nullptr ||
-                               dynamic_cast<const contact::TangentialLaw*>(law.get()) != nullptr;
+                               dynamic_cast<const contact::TangentialLaw*>(law.get()) != nullptr ||
+                               dynamic_cast<const contact::TurningLaw*>(law.get()) != nullptr;
     for (const Place place : law->declaration().places) {
       for (const std::string& at : model::places_of(model, *law, place)) {
         const bool motor_s =

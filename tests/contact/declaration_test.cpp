@@ -127,8 +127,8 @@ TEST_P(EveryGroundLaw, KnowsWhenItIsNull) {
   EXPECT_FALSE(law().is_null(random.parameters(law()).data()));
 }
 
-TEST(GroundLaws, AreTheNormalOneTheTangentialOnesAndTheirErrors) {
-  ASSERT_EQ(ground_laws().size(), 7U);
+TEST(GroundLaws, AreTheNormalOneTheTangentialOnesTheirErrorsAndTurningFriction) {
+  ASSERT_EQ(ground_laws().size(), 9U);
   ASSERT_TRUE(normal_law());
   ASSERT_TRUE(tangential_law());
   EXPECT_EQ(normal_law()->declaration().name, "ground_normal");

@@ -82,6 +82,35 @@ TEST_F(Spheres, ABallRollsDownASlope) {
   EXPECT_LT(std::abs(result.energy_error), 1e-5 * result.energy_exchanged);
 }
 
+std::string turning(const std::string& at) {
+  return "  - effect: rolling_friction\n    at: " + at +
+         "\n    values: {arm: {value: 2e-3, unit: m, assumed: test}}\n  - effect: spinning_friction\n    "
+         "at: " +
+         at +
+         "\n    values: {radius: {value: 5e-3, unit: m, assumed: test}, spin_speed: {value: 0.5, unit: "
+         "rad/s, assumed: "
+         "test}}\n";
+}
+
+// A homogeneous ball that rolls without slip loses speed by g arm / (r (1 + 2/5)); about its normal it is a
+// top whose turn is slowed by m g radius over 2/5 m r^2.
+TEST_F(Spheres, ABallRollsAndSpinsOut) {
+  Plant plant(model(mjcf(kBall, 0.0), "take", ground("feet", 4e5, true) + turning("feet")), {});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
+  x[2] = kRadius - std::pow(2.0 * kGravity / 2e6, 1.0 / 1.5);
+  x[7] = -0.5;
+  x[11] = 5.0;
+  const run::CommandedRun rolls = run(plant, x, 1001);
+  const double a = kGravity * 2e-3 / (1.4 * kRadius);
+  EXPECT_NEAR((rolls.states(7, 1000) - rolls.states(7, 200)) / 0.8, a, 2e-3 * a);
+  EXPECT_LT(std::abs(rolls.energy_error), 1e-5 * rolls.energy_exchanged);
+  x[7] = x[11] = 0.0;
+  x[9] = 8.0;
+  const run::CommandedRun spins = run(plant, x, 501);
+  const double slowing = kGravity * 5e-3 / (0.4 * kRadius * kRadius);
+  EXPECT_NEAR((spins.states(9, 0) - spins.states(9, 500)) / 0.5, slowing, 1e-3 * slowing);
+}
+
 // It touches down when its centre is a radius above the ground, and rebounds as Hunt and Crossley integrated
 // (1975): a (v_in + v_out) = ln((1 + a v_in)/(1 - a v_out)), a = damping/stiffness, with hardly any weight.
 TEST_F(Spheres, ADroppedBallRebounds) {
@@ -169,6 +198,31 @@ TEST_F(Spheres, SlopesOfCoulombFrictionAreThoseOfTheRates) {
   expect_slopes_of_the_rates(plant, x);
   x.tail(6) << 0.02, -0.03, 0.01, 0.1, -0.05, 0.2;
   expect_slopes_of_the_rates(plant, x);
+}
+
+// Rolling fast, and within the speeds at which both fade; by the two values, too.
+TEST_F(Spheres, SlopesOfTurningFrictionAreThoseOfTheRates) {
+  Plant plant(model(mjcf(kBall, kSlope), kToe, ground("toe", 4e5, true) + turning("toe")), {});
+  Eigen::VectorXd x(plant.states());
+  x << 0.1, 0.2, 0.0, 0.4, 0.3, -0.5, 0.3, -0.2, 0.1, 1.2, -0.7, 0.9, 1e-5, -2e-5;
+  expect_slopes_of_the_rates(plant, x);
+  x.segment(6, 6) << 0.02, -0.03, 0.01, 0.1, -0.05, 0.2;
+  expect_slopes_of_the_rates(plant, x);
+  x[2] += plant.foot_depth(0, x.data()).depth - 1e-3;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(x.size());
+  Eigen::MatrixXd A, B;
+  plant.tangent({x.data(), still.data(), nullptr, nullptr, 1e-3}, {{2, 0}, {3, 0}},
+                Eigen::VectorXd::Constant(2, 1e-6), true, A, B);
+  for (const int effect : {2, 3}) {
+    Eigen::VectorXd before(x.size()), after(x.size());
+    plant.rate(x.data(), nullptr, before.data());
+    plant.set_value({effect, 0}, plant.value({effect, 0}) + 1e-3);
+    plant.rate(x.data(), nullptr, after.data());
+    plant.set_value({effect, 0}, plant.value({effect, 0}) - 1e-3);
+    const Eigen::VectorXd expected = (after - before) / 1e-3;
+    EXPECT_GT(expected.norm(), 1.0);
+    EXPECT_LT((B.col(effect - 2) - expected).norm(), 1e-6 * expected.norm());
+  }
 }
 
 TEST_F(Spheres, BadFeetAreRefusedInOneLine) {

@@ -112,6 +112,8 @@ const std::vector<EffectGuide>& effects_guide() {
       {"ground_friction_error", "ground", "encoder_offset", "push sideways until it slips"},
       {"ground_height_error", "ground", "encoder_offset, switch_lateness",
        "touch the ground slowly at several places"},
+      {"rolling_friction", "ground", "viscous, ground_friction_error", "let it roll out on level ground"},
+      {"spinning_friction", "ground", "viscous, ground_friction_error", "let it spin out on the spot"},
   };
   return kGuide;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/ground_change.h"
+#include "contact/ground_turning.h"
 #include "simulator/effects/inertial_sensor_law.h"
 #include "simulator/effects/parameters.h"
 #include "simulator/model/limbs.h"
@@ -210,9 +211,14 @@ const model::EffectUse* normal_law_at(const model::Model& model, const std::stri
   return found == model.effects.end() ? nullptr : &*found;
 }
 
-/// The ground itself is never what is missing: only how it differs from what the model says of it.
+/// The ground itself is never what is missing: only how it differs from what the model says of it, and what a
+/// foot that rolls or spins feels beside. A point does neither.
 bool changes_ground(const model::Model& model, const effects::Law& law, const std::string& foot) {
-  return dynamic_cast<const contact::GroundChangeLaw*>(&law) != nullptr &&
+  const bool is_round = std::any_of(model.feet.begin(), model.feet.end(), [&](const model::Foot& one) {
+    return one.answers_to(foot) && one.radius > 0.0;
+  });
+  const bool turns = is_round && dynamic_cast<const contact::TurningLaw*>(&law) != nullptr;
+  return (turns || dynamic_cast<const contact::GroundChangeLaw*>(&law) != nullptr) &&
          normal_law_at(model, foot) != nullptr;
 }
 
