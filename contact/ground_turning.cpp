@@ -31,9 +31,6 @@ class RollingFriction final : public TurningLaw {
         ""};
     return kDeclaration;
   }
-  effects::Values typical(const effects::Scales& scales) const override {
-    return {effects::guarded(scales).position, kStandardSpeed};
-  }
   Vector3d moment(const Vector3d& turn, double normal, const double* p) const override {
     constexpr double kStill = 1e-8;  // below it tanh(x) / x is 1 to rounding
     const Vector3d along(turn.x(), turn.y(), 0.0);
@@ -58,15 +55,16 @@ class SpinningFriction final : public TurningLaw {
         ""};
     return kDeclaration;
   }
-  effects::Values typical(const effects::Scales& scales) const override {
-    return {effects::guarded(scales).position, kStandardSpeed};
-  }
   Vector3d moment(const Vector3d& turn, double normal, const double* p) const override {
     return {0.0, 0.0, -normal * p[kArm] * std::tanh(turn.z() / p[kFadeSpeed])};
   }
 };
 
 }  // namespace
+
+effects::Values TurningLaw::typical(const effects::Scales& scales) const {
+  return {effects::guarded(scales).position, kStandardSpeed};
+}
 
 // Linear in the arm.
 std::vector<effects::Values> TurningLaw::starts(const effects::Scales& /*scales*/) const {

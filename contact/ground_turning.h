@@ -11,11 +11,14 @@ namespace plumbline::contact {
 
 /// Moment of the ground on a foot that turns. Power balance at constant normal force:
 ///   moment . turn = -dissipated power, never positive.
+/// Its parameters are a length, by which the normal force makes the moment, and the turn below which it
+/// fades.
 class TurningLaw : public effects::Law {
  public:
   /// ON the foot, N m; turn: angular velocity of its link, rad/s; both in axes whose third is the ground's
   /// normal. normal: the normal law's force, N, not negative.
   virtual Eigen::Vector3d moment(const Eigen::Vector3d& turn, double normal, const double* p) const = 0;
+  effects::Values typical(const effects::Scales& scales) const override;
   std::vector<effects::Values> starts(const effects::Scales& scales) const override;
 };
 
