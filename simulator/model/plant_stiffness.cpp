@@ -8,6 +8,7 @@ namespace plumbline::model {
 Stiffest PlantTangent::stiffest(const double* x, const double* command) {
   plant_.deliver_torques(x, command, nullptr);
   bodies_.factor_at(x);
+  plant_.aim_rods(x);
   Eigen::MatrixXd A(nx_, nx_);
   Stiffest found;
   // Spectral radius of the linearised equations with the one effect alone that `add` adds the slopes of.

@@ -144,6 +144,20 @@ TEST_F(StretchedRod, HasTheSlopesOfItsRates) {
   }
 }
 
+TEST_F(StretchedRod, IsAsStiffAsItIsWhereverItWasBefore) {
+  const Model model = pulled({use_of("cable_stretch", {kStiffness, kDamping})});
+  Plant fresh(model, {});
+  Plant moved(model, {});
+  const Eigen::VectorXd elsewhere = somewhere(4);
+  Eigen::VectorXd rate(4);
+  moved.rate(elsewhere.data(), nullptr, rate.data());
+  const Eigen::VectorXd x = somewhere(4);
+  const Stiffest found = fresh.stiffest(x.data(), nullptr);
+  EXPECT_EQ(found.element, "cable_stretch at loop");
+  EXPECT_GT(found.rate, 1.0);
+  EXPECT_EQ(moved.stiffest(x.data(), nullptr).rate, found.rate);
+}
+
 TEST_F(StretchedRod, KeepsTheEnergyThatItStores) {
   Plant plant(pulled({use_of("cable_stretch", {kStiffness, 0.0})}), {});
   integrate::PlantOde ode(plant, false, false);
