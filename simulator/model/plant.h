@@ -132,8 +132,8 @@ class Plant {
   /// The states of carried_states() carried in h seconds along a known motion from `from` to `to`, under
   /// commands that hold meanwhile (delayed already); written behind the positions and velocities of x. By the
   /// exponential Euler method at the middle (Hochbruck and Ostermann, Acta Numerica 19, 2010), stable for
-  /// stiff bristles and exact for a lag of first order; a law's states that are several by the linearly
-  /// implicit midpoint rule. What sensors have lost is left to carry_losses().
+  /// stiff bristles and exact for laws that are linear in their states, however fast. What sensors have lost
+  /// is left to carry_losses().
   void carry_states(const double* from, const double* to, const double* command, double h, double* x) const;
 
   /// Does any sensor lose something of what it shows (effects/losing_sensor_law.h)?

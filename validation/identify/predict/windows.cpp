@@ -29,6 +29,12 @@ constexpr double kHeat = 60.0;
 /// in steps of so many s.
 constexpr double kLongAgo = 1.0;
 
+/// Other hidden states are carried from so long ago that no more than this share of what they were then is
+/// left,
+constexpr double kForgotten = 1e-3;
+/// found by going back so many times further.
+constexpr double kLonger = 3.0;
+
 /// Does a state of the plant change over minutes: a temperature?
 bool remembers_heat(const model::Plant& plant) {
   const std::vector<std::string> names = plant.state_names();
@@ -164,6 +170,42 @@ void Predictor::measure_motion(Eigen::Index from, Eigen::Index to) {
   std::fill(is_measured_.begin() + from, is_measured_.begin() + to + 1, true);
 }
 
+// From sample to sample; returns the share that is left at the end of a change at the beginning.
+double Predictor::carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, double* x) {
+  const std::vector<int> hidden = plant_.carried_states();
+  measure_motion(from, to);
+  Eigen::VectorXd command(plant_.motors());
+  is_warm || from == 0 ? commands_->before(command.data()) : commands_->at(from, 0, command.data());
+  plant_.settle(command.data(), x);
+  if (is_warm) {
+    heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);
+  }
+  const Eigen::VectorXd settled = Eigen::Map<const Eigen::VectorXd>(x, plant_.states());
+  Eigen::VectorXd other = settled;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(other.size());
+  for (const int i : hidden) {
+    change[i] = 1e-3 * (1.0 + std::abs(x[i]));
+  }
+  other += change;
+  const std::vector<double>& breaks = commands_->breaks();
+  for (Eigen::Index k = from; k < to; ++k) {
+    for (std::size_t b = 0; b < breaks.size(); ++b) {
+      commands_->at(k, b, command.data());
+      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
+      for (double* states : {x, other.data()}) {
+        plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
+                            (next - breaks[b]) * trial_.period, states);
+      }
+    }
+  }
+  double left = 0.0;
+  for (const int i : hidden) {
+    const bool has_moved = x[i] != settled[i];  // what did not has nothing to remember
+    left = has_moved ? std::max(left, std::abs(other[i] - x[i]) / change[i]) : left;
+  }
+  return left;
+}
+
 void Predictor::carry_hidden(const Window& window, double* x) {
   const std::vector<int> hidden = plant_.carried_states();
   const bool too_short = trial_.samples() < sensing::DifferentiationOptions::acausal().window;
@@ -171,24 +213,14 @@ void Predictor::carry_hidden(const Window& window, double* x) {
     return;
   }
   const bool is_warm = remembers_heat(plant_);
-  const auto reach =
-      static_cast<Eigen::Index>(std::lround((is_warm ? kHeat : options_.history) / trial_.period));
-  Eigen::Index from = std::max<Eigen::Index>(0, window.first - reach);
-  from = is_warm ? from : std::max(from, beginning_of(trial_, window.first));
-  measure_motion(from, window.first);
-  Eigen::VectorXd command(plant_.motors());
-  is_warm || from == 0 ? commands_->before(command.data()) : commands_->at(from, 0, command.data());
-  plant_.settle(command.data(), x);
-  if (is_warm) {
-    heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);
-  }
-  const std::vector<double>& breaks = commands_->breaks();
-  for (Eigen::Index k = from; k < window.first; ++k) {
-    for (std::size_t b = 0; b < breaks.size(); ++b) {
-      commands_->at(k, b, command.data());
-      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
-      plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
-                          (next - breaks[b]) * trial_.period, x);
+  const Eigen::Index earliest = is_warm ? 0 : beginning_of(trial_, window.first);
+  const auto samples = [&](double time) {
+    return static_cast<Eigen::Index>(std::lround(std::min(time, kHeat) / trial_.period));
+  };
+  for (double history = is_warm ? kHeat : options_.history;; history *= kLonger) {
+    const Eigen::Index from = std::max(earliest, window.first - samples(history));
+    if (carry_from(from, window.first, is_warm, x) < kForgotten || from == earliest || history >= kHeat) {
+      break;
     }
   }
   if (plant_.loses_counts()) {

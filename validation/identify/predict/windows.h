@@ -33,7 +33,8 @@ constexpr double kTail = 0.01;
 struct PredictOptions {
   double window = 0.5;              ///< s
   double relative_tolerance = 0.0;  ///< of the integrator; 0: as the sensors' floors ask (tolerance.h)
-  double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried
+  double history = 1.0;  ///< s of measured motion before a window over which hidden states are carried;
+                         ///< longer where more than a thousandth of what they were then would be left
   /// Integrator steps for each sample, mean over what was run of a window and a fifth of it (at least 20
   /// samples); a law that needs more: std::runtime_error.
   double most_steps = std::numeric_limits<double>::infinity();
@@ -229,6 +230,7 @@ class Predictor {
                           Eigen::VectorXd& x);
   void measure_motion(Eigen::Index from, Eigen::Index to);
   void carry_hidden(const Window& window, double* x);
+  double carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, double* x);
   void carry_losses(Eigen::Index to, double* x) const;
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                 const Eigen::VectorXd& steps);
