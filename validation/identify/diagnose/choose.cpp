@@ -10,6 +10,7 @@
 #include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/objection.h"
+#include "validation/identify/diagnose/odds.h"
 #include "validation/identify/diagnose/resample.h"
 
 namespace plumbline::validation {
@@ -121,23 +122,27 @@ int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refi
   return static_cast<int>(named);
 }
 
-/// What these data cannot tell from the named law: of no more parameters those that win in a fair share of
-/// resamples or leave the same error; of more parameters those that are surely better, if only by little.
-std::vector<std::size_t> rivals_of(std::size_t named, const std::vector<Refit>& refits,
+/// What these data cannot tell from the named law: of no more parameters what wins in a fair share of
+/// resamples or leaves the same error; of more parameters what is surely better, if only by little, or leaves
+/// nearly the same error and has a fair share of the odds.
+bool is_rival(const Stage& stage, const Refit& one, const Refit& named, const Data& data,
+              const Policy& policy) {
+  if (one.own <= named.own) {
+    return share_better(one, named, data, policy) > policy.fair ||
+           one.square() < (1.0 + kRefitTolerance) * named.square();
+  }
+  return is_surely_better(one, named, data, policy) ||
+         (together(one) < (1.0 + policy.simpler) * together(named) &&
+          log_odds(stage, one, named, data) > std::log(policy.fair));
+}
+
+std::vector<std::size_t> rivals_of(const Stage& stage, std::size_t named, const std::vector<Refit>& refits,
                                    const std::vector<std::size_t>& contenders, const Data& data,
                                    const Policy& policy) {
   std::vector<std::size_t> rivals;
-  for (const std::size_t i : contenders) {
-    if (i == named) {
-      continue;
-    }
-    const bool smaller = refits[i].own <= refits[named].own;
-    if (smaller ? share_better(refits[i], refits[named], data, policy) > policy.fair ||
-                      refits[i].square() < (1.0 + kRefitTolerance) * refits[named].square()
-                : is_surely_better(refits[i], refits[named], data, policy)) {
-      rivals.push_back(i);
-    }
-  }
+  std::copy_if(contenders.begin(), contenders.end(), std::back_inserter(rivals), [&](std::size_t i) {
+    return i != named && is_rival(stage, refits[i], refits[named], data, policy);
+  });
   return rivals;
 }
 
@@ -171,7 +176,8 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   });
   choice.named = first_to_name(near, refits, choice.objections, data, policy);
   if (choice.named >= 0) {
-    choice.rivals = rivals_of(static_cast<std::size_t>(choice.named), refits, contenders, data, policy);
+    choice.rivals =
+        rivals_of(stage, static_cast<std::size_t>(choice.named), refits, contenders, data, policy);
   }
   return choice;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/first_of_each.h"
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/revise.h"
@@ -37,6 +38,21 @@ Data without_stiffness(const Stage& stage, const Data& data) {
   return limited;
 }
 
+/// They join the others, and are no longer among those that failed.
+void add_refits(std::vector<Refit> refits, Tried& tried) {
+  for (Refit& one : refits) {
+    tried.failed.erase(
+        std::remove_if(tried.failed.begin(), tried.failed.end(),
+                       [&](const NotRefitted& failed) { return failed.candidate == one.candidate; }),
+        tried.failed.end());
+    tried.refits.push_back(std::move(one));
+  }
+  sort_by_error(tried.refits);
+  tried.refits = first_of_each(std::move(tried.refits), [](const Refit& one, const Refit& other) {
+    return one.candidate == other.candidate;
+  });
+}
+
 /// What could not be followed within this limit, but promises to come as near to the floor as the best: it
 /// may be the law that is hidden, and the best its rival.
 void refit_stiff(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
@@ -57,14 +73,18 @@ void refit_stiff(const Data& data, const Policy& policy, const Progress& progres
   if (again.empty()) {
     return;
   }
-  for (Refit& one : refit(tried.stage, tried.candidates, again, data, policy, progress)) {
-    tried.failed.erase(
-        std::remove_if(tried.failed.begin(), tried.failed.end(),
-                       [&](const NotRefitted& failed) { return failed.candidate == one.candidate; }),
-        tried.failed.end());
-    tried.refits.push_back(std::move(one));
-  }
-  sort_by_error(tried.refits);
+  add_refits(refit(tried.stage, tried.candidates, again, data, policy, progress), tried);
+}
+
+/// Those of the family of the best refit at its place.
+void keep_family(const Tried& tried, std::vector<Hypothesis>& hypotheses) {
+  const Candidate& best = tried.candidates[static_cast<std::size_t>(tried.refits.front().candidate)];
+  const TiedPlaces tied(tried.stage.model);
+  const auto is_elsewhere = [&](const Hypothesis& one) {
+    const Candidate& candidate = tried.candidates[static_cast<std::size_t>(one.candidate)];
+    return !tied.are_one(candidate.at, best.at) || !are_of_one_family(*candidate.law, *best.law);
+  };
+  hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), is_elsewhere), hypotheses.end());
 }
 
 /// The same two candidates, in whichever order.
@@ -142,13 +162,34 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
   };
   tried.candidates.erase(std::remove_if(tried.candidates.begin(), tried.candidates.end(), is_taken),
                          tried.candidates.end());
-  tried.hypotheses = screen(stage, tried.candidates, without_stiffness(stage, data), progress);
+  tried.hypotheses = screen(stage, tried.candidates, without_stiffness(stage, data), progress, &tried.later);
   return tried;
 }
 
 void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
   tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, without_stiffness(tried.stage, data),
                        policy, progress, &tried.failed);
+  refit_stiff(data, policy, progress, tried);
+}
+
+void refit_later(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
+  std::vector<Hypothesis> later = std::move(tried.later);
+  tried.later.clear();
+  if (tried.refits.empty()) {
+    return;
+  }
+  if (is_below(policy.finished, tried.refits.front().estimate, data)) {
+    keep_family(tried, later);
+  }
+  if (later.empty()) {
+    return;
+  }
+  const Data quick = without_stiffness(tried.stage, data);
+  later = screen_later(tried.stage, tried.candidates, std::move(later), quick, progress);
+  add_refits(refit(tried.stage, tried.candidates, later, quick, policy, progress, &tried.failed), tried);
+  tried.hypotheses.insert(tried.hypotheses.end(), later.begin(), later.end());
+  std::stable_sort(tried.hypotheses.begin(), tried.hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
   refit_stiff(data, policy, progress, tried);
 }
 

@@ -87,11 +87,17 @@ class EveryThird {
   std::vector<std::size_t> kept_;  // indices of the windows
 };
 
-void continue_refit(Refit& refit, const Data& data, int iterations) {
+void continue_refit(Refit& refit, const Data& data, int iterations, double tolerance = kRefitTolerance) {
   PredictorPool pool(refit.extended.model, data);
   refit.estimate = gauss_newton(pool, refit.extended.parameters, refit.estimate.theta, refit.estimate.x0,
-                                {iterations, kRefitTolerance, false});
+                                {iterations, tolerance, false});
   refit.extended.theta = refit.estimate.theta;
+}
+
+/// Where the sensors' noise is all that is left, a change of one in the sum of squares tells laws apart.
+void settle_answer(Refit& refit, const Data& data) {
+  constexpr int kIterations = 8;
+  continue_refit(refit, data, kIterations, 1.0 / std::max(1.0, refit.estimate.cost));
 }
 
 /// The smoothing speed of a new friction, free beside the refit's parameters within what is slow against the
@@ -199,7 +205,8 @@ void finish_one(Refit& one, double square_before, const Candidate& candidate, co
   constexpr int kIterations = 8;  // and as many again
   constexpr double kStillFalls = 0.7;
   const std::optional<FreeParameter> smoothing = smoothing_of(one, candidate.scales);
-  if (one.is_full || (one.estimate.converged && !smoothing)) {
+  const bool is_answer = is_below(policy.finished, one.estimate, data);
+  if (one.is_full || (one.estimate.converged && !smoothing && !is_answer)) {
     return;
   }
   progress("finishing " + candidate.label(), 0.9);
@@ -213,6 +220,9 @@ void finish_one(Refit& one, double square_before, const Candidate& candidate, co
     if (!further.estimate.converged &&
         (is_below(policy.far, further.estimate, data) || further.square() < kStillFalls * one.square())) {
       continue_refit(further, data, kIterations);
+    }
+    if (is_below(policy.finished, further.estimate, data)) {
+      settle_answer(further, data);
     }
     one = std::move(further);
     const bool explains = one.square() < kLeft * square_before || is_below(policy.far, one.estimate, data);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
@@ -173,11 +174,11 @@ void keep_where_family_promises(const std::vector<Candidate>& candidates,
   starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
 }
 
-/// Laws that are costly to try, at the places where one that depends on the same promises a noticeable share
-/// of what is above the floor, and there the most.
-void keep_behind_forerunners(const std::vector<Candidate>& candidates,
-                             const std::vector<Hypothesis>& tangents, const Stage& stage,
-                             const TiedPlaces& tied, std::vector<Hypothesis>& starts) {
+/// Laws that are costly to try stay at the places where one that depends on the same promises a noticeable
+/// share of what is above the floor, and there the most. Returns the others.
+std::vector<Hypothesis> keep_behind_forerunners(const std::vector<Candidate>& candidates,
+                                                const std::vector<Hypothesis>& tangents, const Stage& stage,
+                                                const TiedPlaces& tied, std::vector<Hypothesis>& starts) {
   constexpr double kNoticeable = 0.1;
   constexpr std::size_t kPlaces = 2;
   constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
@@ -196,12 +197,12 @@ void keep_behind_forerunners(const std::vector<Candidate>& candidates,
     return std::any_of(first.begin(), first.end(),
                        [&](const std::string& at) { return tied.are_one(at, costly.at); });
   };
-  starts.erase(std::remove_if(starts.begin(), starts.end(),
-                              [&](const Hypothesis& start) {
-                                return has_forerunners(*candidate_of(candidates, start).law) &&
-                                       !is_kept(start);
-                              }),
-               starts.end());
+  const auto later = std::stable_partition(starts.begin(), starts.end(), [&](const Hypothesis& start) {
+    return !has_forerunners(*candidate_of(candidates, start).law) || is_kept(start);
+  });
+  std::vector<Hypothesis> others(std::make_move_iterator(later), std::make_move_iterator(starts.end()));
+  starts.erase(later, starts.end());
+  return others;
 }
 
 constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
@@ -264,6 +265,17 @@ void look_again(const Stage& stage, const std::vector<Candidate>& candidates, co
   sort_by_promise(found);
 }
 
+/// Those that promise most where there are many, each from its start.
+void screen_those(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
+                  const Part& part, const Progress& progress, std::vector<Hypothesis>& starts) {
+  constexpr std::size_t kMany = 60;
+  if (data.has_segments() || starts.size() > kMany) {
+    keep_promising(stage, candidates, data, part_of(stage, telling(stage, kFew, part.windows, data), data),
+                   progress, starts);
+  }
+  screen_starts(stage, candidates, data, part, progress, starts);
+}
+
 }  // namespace
 
 model::Model fitted_model(const Stage& stage) {
@@ -294,7 +306,7 @@ Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypot
 }
 
 std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
-                               const Progress& progress) {
+                               const Progress& progress, std::vector<Hypothesis>* later) {
   std::vector<Hypothesis> tangents;
   std::vector<Hypothesis> starts;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -311,18 +323,24 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   sort_by_promise(found);
   const TiedPlaces tied(stage.model);
   keep_where_family_promises(candidates, found, tied, starts);
-  keep_behind_forerunners(candidates, found, stage, tied, starts);
-  const Part part = enough_to_tell(stage, data);
-  constexpr std::size_t kMany = 60;
-  if (data.has_segments() || starts.size() > kMany) {
-    keep_promising(stage, candidates, data, part_of(stage, telling(stage, kFew, part.windows, data), data),
-                   progress, starts);
+  if (later != nullptr) {
+    *later = keep_behind_forerunners(candidates, found, stage, tied, starts);
   }
-  screen_starts(stage, candidates, data, part, progress, starts);
+  const Part part = enough_to_tell(stage, data);
+  screen_those(stage, candidates, data, part, progress, starts);
   found.insert(found.end(), starts.begin(), starts.end());
   sort_by_promise(found);
   look_again(stage, candidates, data, part, progress, found);
   return found;
+}
+
+std::vector<Hypothesis> screen_later(const Stage& stage, const std::vector<Candidate>& candidates,
+                                     std::vector<Hypothesis> later, const Data& data,
+                                     const Progress& progress) {
+  const Part part = enough_to_tell(stage, data);
+  screen_those(stage, candidates, data, part, progress, later);
+  look_again(stage, candidates, data, part, progress, later);
+  return later;
 }
 
 }  // namespace plumbline::validation
