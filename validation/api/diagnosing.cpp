@@ -262,7 +262,8 @@ std::string best_sentence(const Answer& answer) {
       kinds += fmt::format("{}{} ({:.4g} floors with it as stated)", kinds.empty() ? "" : ", ", one.kind,
                            one.without);
     }
-    said += fmt::format(" It rests on {}.", kinds);
+    said += kinds.empty() ? " It rests on no one kind of value: with any as stated the others make up for it."
+                          : fmt::format(" It rests on {}.", kinds);
   }
   return said;
 }

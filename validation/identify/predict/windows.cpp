@@ -284,6 +284,7 @@ integrate::Options Predictor::tolerances(const Window& window) {
     return options;
   }
   std::vector<FlooredSensor> shown;
+  shown.reserve(static_cast<std::size_t>(channels()));
   for (int c = 0; c < channels(); ++c) {
     shown.push_back({sensor_of_channel_[static_cast<std::size_t>(c)], floors_[c]});
   }
