@@ -170,7 +170,8 @@ void Predictor::measure_motion(Eigen::Index from, Eigen::Index to) {
   std::fill(is_measured_.begin() + from, is_measured_.begin() + to + 1, true);
 }
 
-// From sample to sample; returns the share that is left at the end of a change at the beginning.
+// From sample to sample; returns the share that is left at the end of a change at the beginning, which is not
+// asked where the record, or what it says of temperatures, begins there: then 0.
 double Predictor::carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, double* x) {
   const std::vector<int> hidden = plant_.carried_states();
   measure_motion(from, to);
@@ -180,6 +181,7 @@ double Predictor::carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, d
   if (is_warm) {
     heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);
   }
+  const bool is_beginning = is_warm || from == beginning_of(trial_, to);
   const Eigen::VectorXd settled = Eigen::Map<const Eigen::VectorXd>(x, plant_.states());
   Eigen::VectorXd other = settled;
   Eigen::VectorXd change = Eigen::VectorXd::Zero(other.size());
@@ -187,16 +189,23 @@ double Predictor::carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, d
     change[i] = 1e-3 * (1.0 + std::abs(x[i]));
   }
   other += change;
+  std::vector<double*> carried{x};
+  if (!is_beginning) {
+    carried.push_back(other.data());
+  }
   const std::vector<double>& breaks = commands_->breaks();
   for (Eigen::Index k = from; k < to; ++k) {
     for (std::size_t b = 0; b < breaks.size(); ++b) {
       commands_->at(k, b, command.data());
       const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
-      for (double* states : {x, other.data()}) {
+      for (double* states : carried) {
         plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
                             (next - breaks[b]) * trial_.period, states);
       }
     }
+  }
+  if (is_beginning) {
+    return 0.0;
   }
   double left = 0.0;
   for (const int i : hidden) {
@@ -219,7 +228,7 @@ void Predictor::carry_hidden(const Window& window, double* x) {
   };
   for (double history = is_warm ? kHeat : options_.history;; history *= kLonger) {
     const Eigen::Index from = std::max(earliest, window.first - samples(history));
-    if (carry_from(from, window.first, is_warm, x) < kForgotten || from == earliest || history >= kHeat) {
+    if (carry_from(from, window.first, is_warm, x) < kForgotten || history >= kHeat) {
       break;
     }
   }
