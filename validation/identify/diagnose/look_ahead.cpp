@@ -188,8 +188,7 @@ void refit_later(const Data& data, const Policy& policy, const Progress& progres
   later = screen_later(tried.stage, tried.candidates, std::move(later), quick, progress);
   add_refits(refit(tried.stage, tried.candidates, later, quick, policy, progress, &tried.failed), tried);
   tried.hypotheses.insert(tried.hypotheses.end(), later.begin(), later.end());
-  std::stable_sort(tried.hypotheses.begin(), tried.hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+  sort_by_promise(tried.hypotheses);
   refit_stiff(data, policy, progress, tried);
 }
 

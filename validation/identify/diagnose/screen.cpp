@@ -87,11 +87,6 @@ void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, 
   hypothesis.promised_held_out = promise.held_out / part.held_out_share;
 }
 
-void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
-}
-
 /// Each of them by one of the ranks, where there are several.
 void screen_ahead(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
                   const Part& part, const std::vector<Hypothesis>& starts) {
@@ -277,6 +272,11 @@ void screen_those(const Stage& stage, const std::vector<Candidate>& candidates, 
 }
 
 }  // namespace
+
+void sort_by_promise(std::vector<Hypothesis>& hypotheses) {
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.promised() < b.promised(); });
+}
 
 model::Model fitted_model(const Stage& stage) {
   return with_values(stage.model, stage.parameters, stage.estimate.theta);

@@ -37,6 +37,9 @@ struct Hypothesis {
   double promised() const { return promised_train + promised_held_out; }
 };
 
+/// Best promise first; what is equal stays in its order.
+void sort_by_promise(std::vector<Hypothesis>& hypotheses);
+
 using Progress = std::function<void(const std::string& what, double fraction)>;
 
 /// Best promise first. Every candidate that moves the prediction at all is in the list, but that where
