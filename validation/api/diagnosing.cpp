@@ -217,7 +217,10 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
     answer.diagnosis = diagnosed(torques, loaded, catalogue, options, progress);
     if (torques.stage) {
       answer.torque_cutoff = torques.stage->cutoff;
-      answer.open = torques.stage->open;
+      // What windows have named since, the torques were not asked beside.
+      if (answer.diagnosis.accepted.size() <= torques.stage->named.size()) {
+        answer.open = torques.stage->open;
+      }
       if (!answer.diagnosis.at_one_place) {
         answer.diagnosis.at_one_place = validation::at_one_place(answer.open, loaded.model, options);
       }

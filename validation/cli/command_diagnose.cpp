@@ -274,7 +274,9 @@ void add_diagnose(CLI::App& app, Outcome& /*outcome*/) {
       ->add_option("--resume", options->resume,
                    "keep results in FILE as they come, and go on from those in it")
       ->type_name("FILE");
-  command->add_option("--most", options->diagnose.most_effects, "most effects to accept")
+  command
+      ->add_option("--most", options->diagnose.most_effects,
+                   "most effects to accept (of those that torques ask for, at each place that moves)")
       ->capture_default_str();
   command->add_option("--refits", options->diagnose.refits, "candidates refitted in each round")
       ->capture_default_str();

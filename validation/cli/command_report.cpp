@@ -73,7 +73,9 @@ void add_options(CLI::App& command, Options& options) {
       ->excludes(none);
   command.add_option("--without", options.inputs.without, "effects to leave out of the catalogue")
       ->type_name("EFFECT");
-  command.add_option("--most", options.request.diagnose.most_effects, "most effects to accept")
+  command
+      .add_option("--most", options.request.diagnose.most_effects,
+                  "most effects to accept (of those that torques ask for, at each place that moves)")
       ->capture_default_str();
   command.add_option("--seed", options.request.diagnose.seed, "seed of the resampling")
       ->capture_default_str();

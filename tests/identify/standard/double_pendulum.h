@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "simulator/effects/catalogue.h"
 #include "simulator/model/robot_file.h"
@@ -23,6 +24,8 @@ struct Truth {
   double upper_mass = 0.5, lower_mass = 0.6;  ///< kg; inertias grow with them
   double payload = 0.0, x = 0.0, z = 0.0;     ///< kg, m: a point mass on the lower link
   double viscous = 0.0;                       ///< N m s/rad, at the elbow
+  std::array<double, 2> coulomb{};            ///< N m, at shoulder and elbow
+  std::array<double, 2> torque_noise{};       ///< N m, of the recorded torques, anew every 20 ms
 
   std::array<double, 2> torques(double q1, double q2, double v1, double v2, double a1, double a2) const {
     constexpr double kRotor = 2.2e-3;
@@ -39,7 +42,9 @@ struct Truth {
                       kGravity * (upper_mass * 0.2 + (lower_mass + payload) * kUpper) * std::sin(q1);
     const double Q2 =
         J * (a1 + a2) + K * a1 - slope * v1 * v1 - kGravity * (Sx * std::cos(phi2) + Sz * std::sin(phi2));
-    return {Q1 + Q2 + kRotor * a1, Q2 + kRotor * a2 + viscous * v2};
+    const auto direction = [](double v) { return v > 0.0 ? 1.0 : -1.0; };
+    return {Q1 + Q2 + kRotor * a1 + coulomb[0] * direction(v1),
+            Q2 + kRotor * a2 + viscous * v2 + coulomb[1] * direction(v2)};
   }
 };
 
@@ -69,13 +74,20 @@ inline Trial trial(const Truth& truth, Role role) {
     }
     return x;
   };
+  constexpr int kHeld = 10;  // samples
+  std::mt19937 random(role == Role::train ? 1 : 2);
+  std::normal_distribution<double> normal;
+  std::array<double, 2> noise{};
   for (int k = 0; k < kSamples; ++k) {
+    if (k % kHeld == 0) {
+      noise = {truth.torque_noise[0] * normal(random), truth.torque_noise[1] * normal(random)};
+    }
     const std::array<double, 6> read = state(one.time[k]);
     const std::array<double, 6> x = state(one.time[k] + 0.5 * one.period);  // a command is held over a sample
     const std::array<double, 2> needed = truth.torques(x[0], x[1], x[2], x[3], x[4], x[5]);
     for (std::size_t i = 0; i < 2; ++i) {
       q[i][k] = kCount * std::round(read[i] / kCount);
-      tau[i][k] = needed[i];
+      tau[i][k] = needed[i] + noise[i];
     }
   }
   one.measured = {{"shoulder", "q1", "rad", q[0]}, {"elbow", "q2", "rad", q[1]}};

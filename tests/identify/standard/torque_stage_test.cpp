@@ -49,6 +49,30 @@ TEST(TorqueStage, NamesFriction) {
   EXPECT_EQ(stage.named.front().label(), "viscous@elbow_motor");
 }
 
+// A torque that is friction nearly whole, recorded with more noise than the motion needs: a law that lets no
+// torque through would leave less at the joint, but says nothing of what was recorded.
+TEST(TorqueStage, NamesFrictionWhereItIsNearlyAllOfTheTorque) {
+  Truth truth;
+  truth.coulomb = {0.0, 40.0};
+  truth.torque_noise = {0.0, 12.0};
+  const TorqueStage stage = stage_of(truth);
+  ASSERT_GE(stage.named.size(), 1U) << names_of(stage);
+  EXPECT_EQ(stage.named.front().label(), "coulomb@elbow_motor") << names_of(stage);
+  EXPECT_NEAR(stage.named.front().free.values.back().value, 40.0, 4.0);
+}
+
+// Each is the best in some resamples; both are there, and neither is a rival of the other.
+TEST(TorqueStage, NamesTwoThatAreEquallyStrong) {
+  Truth truth;
+  truth.coulomb = {0.6, 0.5};
+  truth.torque_noise = {1.0, 1.0};
+  const TorqueStage stage = stage_of(truth);
+  EXPECT_EQ(names_of(stage), "coulomb@shoulder_motor coulomb@elbow_motor ");
+  for (const TorqueFinding& one : stage.named) {
+    EXPECT_TRUE(one.rivals.empty()) << one.rivals.front().label();
+  }
+}
+
 TEST(TorqueStage, NamesNothingWhereNothingIsMissing) { EXPECT_EQ(names_of(stage_of({})), ""); }
 
 // A mass that the model knows to 10 % is not an effect, however much it explains.

@@ -41,15 +41,16 @@ Eigen::MatrixXd means(const Eigen::MatrixXd& held) {
   return result;
 }
 
-double torque_scale(const model::Model& model, const std::string& motor) {
-  double scale = 1.0;
-  for (const model::EffectUse& use : model.effects) {
-    if (use.at == motor && use.law->declaration().name == "torque_constant_error") {
-      scale *= use.values.front().value;
-    }
+/// What of the recorded torque the model delivers, by moving place: the mean square of the force that the
+/// commands make, the one of the recorded torque, both over the same samples.
+struct Delivered {
+  Eigen::VectorXd made, recorded;
+
+  /// The ratio of the root mean squares; 1 where no torque was recorded.
+  double share(Eigen::Index place) const {
+    return recorded[place] > 0.0 ? std::sqrt(made[place] / recorded[place]) : 1.0;
   }
-  return scale;
-}
+};
 
 /// Rows of W and the places that they stand for: moving motors, then joints that no motor moves.
 struct Places {
@@ -212,12 +213,16 @@ MotionSamples motion_samples(const model::Model& model, const Trial& trial, doub
 }
 
 Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& samples) {
+  constexpr Eigen::Index kLooks = 8;  // one sample of so many says how much of the torque is delivered
   const Trial& trial = *samples.trial;
   model::Plant plant(of_trial(model, trial), trial.locks, trial.terrain);
   const Eigen::Index n = plant.positions();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.states());
   Eigen::VectorXd rate = x;
+  Eigen::VectorXd idle = x;
   Eigen::MatrixXd errors(n, samples.commands.cols());
+  Delivered delivered{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(samples.commands.rows());
   for (Eigen::Index k = 0; k < errors.cols(); ++k) {
     x.head(n) = samples.motion.z.col(k);
     x.segment(n, n) = samples.motion.v.col(k);
@@ -231,9 +236,19 @@ Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& sa
             samples.inertia[i] / samples.to_places.row(i).dot(M * samples.to_places.row(i).transpose());
       }
     }
+    if (k % kLooks == 0) {
+      plant.rate(x.data(), none.data(), idle.data());
+      const Eigen::VectorXd force = samples.to_places * (M * (rate - idle).segment(n, n));
+      delivered.made += force.cwiseAbs2();
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const int place = samples.moving[static_cast<std::size_t>(i)];
+        delivered.recorded[i] +=
+            is_passive(model, place) ? 0.0 : std::pow(plant.torque_gain(place) * command[place], 2);
+      }
+    }
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    errors.row(i) /= torque_scale(model, place_name(model, samples.moving[static_cast<std::size_t>(i)]));
+    errors.row(i) /= delivered.share(i);
   }
   return filtered(errors, samples);
 }

@@ -138,6 +138,17 @@ std::optional<Load> payload_for(const TorqueCandidate& named, const TorqueProble
   return load.share < policy.fair ? std::nullopt : std::optional<Load>(std::move(load));
 }
 
+/// One model with the effects that two candidates add to the same numbers.
+FreeModel with_both(FreeModel a, const FreeModel& b, std::size_t common) {
+  a.model.effects.push_back(b.model.effects.back());
+  const int effect = static_cast<int>(a.model.effects.size()) - 1;
+  for (std::size_t i = common; i < b.values.size(); ++i) {
+    a.values.push_back(b.values[i]);
+    a.values.back().id.effect = effect;
+  }
+  return a;
+}
+
 /// What a round says of its candidates, in the order of the screen.
 struct Round {
   std::vector<LawShare> shares;
@@ -164,6 +175,33 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
   return round;
 }
 
+/// Two effects that are both there are no rivals, though each is the best in some resamples. The share of the
+/// resamples that speak for candidate `index`: its own, and those of each other beside which it is needed as
+/// well. Those are taken from `others`.
+double needed_share(const TorqueProblem& problem, const Judge& judge, const TorqueScreen& screen,
+                    const Round& round, std::size_t index, const Policy& policy,
+                    std::vector<LawShare>& others) {
+  const std::size_t own = screen.own.values.size();
+  double share = round.shares[index].share;
+  for (std::size_t i = 0; i < round.shares.size(); ++i) {
+    const LawShare& other = round.shares[i];
+    if (i == index || other.share < policy.fair) {
+      continue;
+    }
+    FreeModel both = with_both(screen.ranked[i].free, screen.ranked[index].free, own);
+    const std::size_t further = both.values.size() - own;
+    problem.search(both);
+    const Judgement alone = judge.judged(screen.ranked[i].free, screen.ranked[i].free.values.size() - own);
+    if (judge.shares({judge.judged(both, further), alone}, policy).front() >= policy.stable) {
+      share += other.share;
+      others.erase(std::remove_if(others.begin(), others.end(),
+                                  [&](const LawShare& one) { return one.label() == other.label(); }),
+                   others.end());
+    }
+  }
+  return share;
+}
+
 bool is_more_probable(const LawShare& a, const LawShare& b) { return a.share > b.share; }
 
 }  // namespace
@@ -176,7 +214,8 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
   TorqueStage stage;
   stage.cutoff = problem.cutoff();
   FreeModel own = own_numbers(model);
-  for (int i = 0; i <= policy.most_effects; ++i) {
+  const std::size_t most = static_cast<std::size_t>(policy.most_effects) * problem.scales().size();
+  for (std::size_t i = 0; i <= most; ++i) {
     const TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
     if (i == 0) {
       stage.own = screen.own;
@@ -189,19 +228,21 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     std::stable_sort(stage.open.begin(), stage.open.end(), is_more_probable);
     const auto best = std::min_element(round.shares.begin(), round.shares.end(), is_more_probable);
     const auto index = static_cast<std::size_t>(best - round.shares.begin());
-    if (best->share < policy.stable || round.falls[index] < policy.material || i == policy.most_effects) {
+    std::vector<LawShare> others = stage.open;
+    const double share = needed_share(problem, judge, screen, round, index, policy, others);
+    if (share < policy.stable || round.falls[index] < policy.material || i == most) {
       break;
     }
     TorqueFinding finding;
     finding.effect = best->effect;
     finding.at = best->at;
     finding.free = screen.ranked[index].free;
-    finding.share = best->share;
-    std::copy_if(stage.open.begin() + 1, stage.open.end(), std::back_inserter(finding.rivals),
+    finding.share = share;
+    std::copy_if(others.begin() + 1, others.end(), std::back_inserter(finding.rivals),
                  [&](const LawShare& one) { return one.share >= policy.fair; });
     if (std::optional<Load> load = payload_for(screen.ranked[index], problem, judge, screen, policy)) {
       LawShare other = *best;
-      other.share *= 1.0 - load->share;
+      other.share = share * (1.0 - load->share);
       if (other.share >= policy.fair) {
         finding.rivals.insert(finding.rivals.begin(), other);
       }

@@ -23,13 +23,16 @@ struct TorqueStage {
   double cutoff = 0.0;         ///< Hz
 };
 
-/// Rounds of torque_screen(). Of its best candidates, each fitted to the train trials, the one is named that
-/// is best in at least Policy::stable of block resamples of train and held-out samples (by the likelihood of
-/// TorqueProblem, what is stated included, with the penalty of torque_screen), with the model's own numbers
-/// alone among them, if by it the error of the torques on the held-out trials (on train, where there are
-/// none; geometric mean of the motors' rms) falls by Policy::material at least. Blocks are as long as the
-/// windows. Throws InputError as TorqueProblem does. Source of the resampling by blocks: Kuensch, The
-/// jackknife and the bootstrap for general stationary observations, Annals of Statistics 17(3), 1989.
+/// Rounds of torque_screen(), at most Policy::most_effects for each place that moves. Of its best candidates,
+/// each fitted to the train trials, the one is named that is best in at least Policy::stable of block
+/// resamples of train and held-out samples (by the likelihood of TorqueProblem, what is stated included, with
+/// the penalty of torque_screen), with the model's own numbers alone among them, if by it the error of the
+/// torques on the held-out trials (on train, where there are none; geometric mean of the motors' rms) falls
+/// by Policy::material at least. Where another is the best, it is a rival only if it makes the first
+/// superfluous: resamples count for the first, too, whose best is one beside which it is needed in
+/// Policy::stable of them. Blocks are as long as the windows. Throws InputError as TorqueProblem does. Source
+/// of the resampling by blocks: Kuensch, The jackknife and the bootstrap for general stationary observations,
+/// Annals of Statistics 17(3), 1989.
 TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
                          double cutoff, const Policy& policy, const Progress& progress);
 
