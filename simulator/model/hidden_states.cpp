@@ -29,14 +29,17 @@ void step_state(const RateOf& rate_of, double h, double* s) {
 /// The same of `count` states that act on each other, a mass on a spring, a loop of second order: with their
 /// Jacobian J and rate r the upper right corner of exp(h [J r; 0 0]), exact for linear laws however fast they
 /// are against the step (Hochbruck and Ostermann, Acta Numerica 19 (2010) 209-286).
-template <typename Values, typename RateOf>
+/// Of two states nothing is allocated: this is done for every sample before a window.
+template <int Count, typename RateOf>
 void step_coupled(const RateOf& rate_of, double h, int count, double* s) {
-  const Values before = Vector(s, count);
-  Values moved = before;
-  Values rate(count);
-  Values other(count);
+  constexpr int kSize = Count == Eigen::Dynamic ? Eigen::Dynamic : Count + 1;
+  const FewStates before = Vector(s, count);
+  FewStates moved = before;
+  FewStates rate(count);
+  FewStates other(count);
   rate_of(before.data(), rate.data());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(count + 1, count + 1);
+  Eigen::Matrix<double, kSize, kSize> A(count + 1, count + 1);
+  A.setZero();
   A.topRightCorner(count, 1) = h * rate;
   for (int k = 0; k < count; ++k) {
     const double step = 1e-6 * (1.0 + std::abs(before[k]));
@@ -45,13 +48,19 @@ void step_coupled(const RateOf& rate_of, double h, int count, double* s) {
     moved[k] = before[k];
     A.col(k).head(count) = h / step * (other - rate);
   }
-  const Eigen::MatrixXd grown = A.exp();
+  const Eigen::Matrix<double, kSize, kSize> grown = A.exp();
   Eigen::Map<Eigen::VectorXd>(s, count) += grown.topRightCorner(count, 1);
 }
 
-template <typename Values, typename RateOf>
+template <typename RateOf>
 void step_states(const RateOf& rate_of, double h, int count, double* s) {
-  count == 1 ? step_state(rate_of, h, s) : step_coupled<Values>(rate_of, h, count, s);
+  if (count == 1) {
+    step_state(rate_of, h, s);
+  } else if (count == 2) {
+    step_coupled<2>(rate_of, h, count, s);
+  } else {
+    step_coupled<Eigen::Dynamic>(rate_of, h, count, s);
+  }
 }
 
 }  // namespace
@@ -120,21 +129,17 @@ void carry_states(PlantDynamics& plant, const double* from, const double* to, co
                                    asked_torque(plant.model(), slot.motor, command[slot.motor]), nullptr)
             : 0.0;
     const effects::Motion middle{0.5 * (q0 + q1), 0.5 * (v0 + v1), load};
-    step_states<FewStates>(
-        [&](const double* s, double* rate) {
-          slot.law->state_rate(middle, s, plant.values(slot.effect), rate);
-        },
-        h, slot.law->state_count(), x + slot.state);
+    step_states([&](const double* s,
+                    double* rate) { slot.law->state_rate(middle, s, plant.values(slot.effect), rate); },
+                h, slot.law->state_count(), x + slot.state);
   }
   for (int m = 0; m < plant.motors(); ++m) {
     double torque = asked_torque(plant.model(), m, command[m]);
     for (const ActuatorSlot& slot : plant.actuators()[static_cast<std::size_t>(m)]) {
       if (slot.state >= 0) {
-        step_states<FewStates>(
-            [&](const double* s, double* rate) {
-              slot.law->state_rate(torque, s, plant.values(slot.effect), rate);
-            },
-            h, slot.law->state_count(), x + slot.state);
+        step_states([&](const double* s,
+                        double* rate) { slot.law->state_rate(torque, s, plant.values(slot.effect), rate); },
+                    h, slot.law->state_count(), x + slot.state);
       }
       if (slot.state >= 0 || slot.law->state_count() == 0) {
         torque =
@@ -158,8 +163,8 @@ void settle(const PlantDynamics& plant, const double* command, double* x) {
     rate_of(0.0, x + slot.state, free.data());
     rate_of(load, x + slot.state, loaded.data());
     if (free != loaded) {
-      step_states<FewStates>([&](const double* s, double* rate) { rate_of(load, s, rate); }, kLong, count,
-                             x + slot.state);
+      step_states([&](const double* s, double* rate) { rate_of(load, s, rate); }, kLong, count,
+                  x + slot.state);
     }
   };
   for (int m = 0; m < plant.motors(); ++m) {

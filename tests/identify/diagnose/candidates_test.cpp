@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/identify/diagnose/bench.h"
+#include "tests/identify/standard/double_pendulum.h"
 
 namespace plumbline::validation {
 namespace {
@@ -35,6 +36,22 @@ TEST(Candidates, AreNotSearchedAcrossThePlaneOfTheRobot) {
 // Of a spring without stiffness the rest does nothing, of one with stiffness it does.
 TEST(Candidates, AreSearchedInAllThatMatters) {
   EXPECT_THAT(searched("spring", "shin"), testing::ElementsAre("spring@shin:stiffness", "spring@shin:rest"));
+}
+
+// A load on the axis turns with its rotor, and by itself has no inertia.
+TEST(Candidates, DoNotStretchWhatLeavesNoInertia) {
+  model::Model model = pendulums::stated();
+  model::Body& lower = model.skeleton.bodies[static_cast<std::size_t>(model.body_index("lower"))];
+  lower.com.setZero();
+  lower.inertia.setZero();
+  const Data data = pendulums::data({}).thinned(1);
+  PredictorPool pool(model, data);
+  std::vector<std::string> places;
+  for (const Candidate& one :
+       list_candidates(pool, some_laws({"cable_stretch"}), {}, estimate_states(pool))) {
+    places.push_back(one.at);
+  }
+  EXPECT_THAT(places, testing::ElementsAre("shoulder"));
 }
 
 }  // namespace

@@ -100,5 +100,16 @@ TEST(Prior, WithoutCorrelationsEachStandsAlone) {
       prior(parameters, units, kTheta).H.isApprox(Eigen::Matrix3d(scale.cwiseInverse().asDiagonal()), 1e-9));
 }
 
+// Where the bound takes a law's states out of the model a step stays inside; elsewhere it may end there.
+TEST(Room, EndsBeforeABoundWhereStatesLeave) {
+  std::vector<FreeParameter> parameters = three();
+  const Eigen::VectorXd units = Eigen::Vector3d::Ones();
+  const double whole = room(parameters, kTheta, units).lower[0];
+  EXPECT_DOUBLE_EQ(kTheta[0] + whole, parameters[0].lower);
+  parameters[0].leaves_at_bound = true;
+  EXPECT_DOUBLE_EQ(room(parameters, kTheta, units).lower[0], 0.9 * whole);
+  EXPECT_DOUBLE_EQ(room(parameters, kTheta, units).lower[2], room(three(), kTheta, units).lower[2]);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

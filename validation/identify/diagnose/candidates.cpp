@@ -11,6 +11,7 @@
 #include "simulator/model/limbs.h"
 #include "simulator/model/places.h"
 #include "simulator/model/planar_base.h"
+#include "simulator/trace/error.h"
 #include "validation/identify/diagnose/inertial_places.h"
 #include "validation/identify/diagnose/physical_limits.h"
 #include "validation/identify/diagnose/rates.h"
@@ -303,6 +304,22 @@ void keep_states(const model::Model& before, const FreeParameter& parameter, mod
   value = inside ? other : from_search(parameter.scale, null - step);
 }
 
+/// Behind a ratio that stretches only its own inertia holds a side: there may be none, a point mass on the
+/// axis, and then there is nothing to ask.
+bool leaves_no_inertia(const model::Model& model, const Candidate& candidate) {
+  if (candidate.place != Place::ratio) {
+    return false;
+  }
+  model::Model with = model;
+  with.effects.push_back(make_use(candidate, candidate.law->typical(candidate.scales)));
+  try {
+    model::Plant plant(with, {});
+  } catch (const InputError&) {
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catalogue& catalogue,
@@ -332,6 +349,9 @@ std::vector<Candidate> list_candidates(PredictorPool& pool, const effects::Catal
         continue;
       }
       Candidate candidate{law, place, at, same, {}};
+      if (leaves_no_inertia(model, candidate)) {
+        continue;
+      }
       if (place == Place::coordinate || place == Place::motor || place == Place::ratio) {
         candidate.scales = motions.at(place, at);
       } else if (is_inertial) {
@@ -405,6 +425,8 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
                     parameter.lower,
                     parameter.upper,
                     typical[p]});
+    free.back().leaves_at_bound = use.law->state_count() > 0 && (parameter.null_value == parameter.lower ||
+                                                                 parameter.null_value == parameter.upper);
   }
   return free;
 }

@@ -6,6 +6,7 @@
 
 #include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/judged.h"
+#include "validation/identify/predict/carried_states.h"
 #include "validation/identify/predict/deviations.h"
 
 namespace plumbline::validation {
@@ -30,17 +31,36 @@ OwnPart part_of(const Refit& refit, const Eigen::VectorXd& theta, int effect) {
   return part;
 }
 
-/// Mean square of a refit (Refit::square) with one parameter held at a value and all others fitted anew.
-double square_with(double value, std::size_t parameter, const Refit& refit, const Data& data) {
-  constexpr int kIterations = 8;
+constexpr int kIterationsAnew = 8;
+
+/// Mean square of a refit (Refit::square) with one parameter held where it is and all others fitted anew.
+double square_held(std::size_t parameter, const Refit& refit, const Data& data) {
   std::vector<FreeParameter> others = refit.extended.parameters;
-  Eigen::VectorXd theta = refit.estimate.predicted.theta;
-  theta[static_cast<Eigen::Index>(parameter)] = value;
-  const model::Model held = with_values(refit.extended.model, others, theta);
+  const model::Model held = with_values(refit.extended.model, others, refit.estimate.predicted.theta);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
   PredictorPool pool(held, data);
   return gauss_newton(pool, others, values_of(held, others), refit.estimate.x0,
-                      {kIterations, kRefitTolerance, false})
+                      {kIterationsAnew, kRefitTolerance, false})
+      .predicted.scores.square();
+}
+
+/// The same with the parameter at its null value, where the law is null: with its states and its other values
+/// it leaves the model. Kept beside it they could do what it did: next to no time constant, under any
+/// damping, is a lag of first order.
+double square_without(std::size_t parameter, double null, const Refit& refit, const Data& data) {
+  const model::ParameterId id = refit.extended.parameters[parameter].id;
+  std::vector<FreeParameter> others = refit.extended.parameters;
+  const model::Model with = with_values(refit.extended.model, others, refit.estimate.predicted.theta);
+  model::Model without = with;
+  without.effects[static_cast<std::size_t>(id.effect)].values[static_cast<std::size_t>(id.parameter)].value =
+      null;
+  others.erase(std::remove_if(others.begin(), others.end(),
+                              [&](const FreeParameter& one) { return one.id.effect == id.effect; }),
+               others.end());
+  PredictorPool pool(without, data);
+  return gauss_newton(pool, others, values_of(without, others),
+                      carried_states(with, without, data, refit.estimate.x0),
+                      {kIterationsAnew, kRefitTolerance, false})
       .predicted.scores.square();
 }
 
@@ -50,11 +70,9 @@ double square_with(double value, std::size_t parameter, const Refit& refit, cons
 /// not known: no.
 bool is_needed(std::size_t parameter, double null, const Refit& refit, const Data& data,
                const Policy& policy) {
-  const double value = refit.estimate.predicted.theta[static_cast<Eigen::Index>(parameter)];
   const double most = 1.0 + policy.material;
   try {
-    return square_with(null, parameter, refit, data) >
-           most * most * square_with(value, parameter, refit, data);
+    return square_without(parameter, null, refit, data) > most * most * square_held(parameter, refit, data);
   } catch (const Stopped&) {
     throw;
   } catch (const std::runtime_error&) {

@@ -417,12 +417,14 @@ Estimate rough_states(PredictorPool& pool) {
 
 Room room(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta,
           const Eigen::VectorXd& units) {
+  constexpr double kShareOfWay = 0.9;
   Room b{Eigen::VectorXd(units.size()), Eigen::VectorXd(units.size())};
   for (Eigen::Index p = 0; p < units.size(); ++p) {
     const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
     const double here = to_search(parameter.scale, theta[p]);
-    const double one = (to_search(parameter.scale, parameter.lower) - here) / units[p];
-    const double two = (to_search(parameter.scale, parameter.upper) - here) / units[p];
+    const double share = parameter.leaves_at_bound ? kShareOfWay : 1.0;
+    const double one = share * (to_search(parameter.scale, parameter.lower) - here) / units[p];
+    const double two = share * (to_search(parameter.scale, parameter.upper) - here) / units[p];
     b.lower[p] = std::min({one, two, 0.0});
     b.upper[p] = std::max({one, two, 0.0});
   }

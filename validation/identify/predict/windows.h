@@ -76,6 +76,8 @@ struct FreeParameter {
   double deviation = std::numeric_limits<double>::infinity();  ///< and how well; infinite: not at all
   std::vector<model::ParameterId> also{};                      ///< parameters that always have the same value
   bool physical = false;  ///< the bounds say what the robot can be: a value at one is none
+  /// At the bound the law leaves the model with its hidden states: from there no slope leads back.
+  bool leaves_at_bound = false;
   /// How what is known of it hangs together with what is known of others, by their labels; null: not at all.
   std::shared_ptr<const model::Correlations> together{};
 
