@@ -46,6 +46,21 @@ std::vector<bool> sides_of_jumps(const ForceSlot& slot, const effects::Motion& a
   return sides;
 }
 
+/// A hidden state that is faster than the sample has its mean far from the middle: it is where its rate is
+/// the sample's change, to first order (exact for a first-order lag). A slow one is in the middle.
+double mean_of_fast_state(const ForceSlot& slot, const effects::Motion& at, const SampleMotion& sample,
+                          double middle, const double* p) {
+  const double step = 1e-7 * (1.0 + std::abs(middle));
+  const double other = middle + step;
+  double rate = 0.0;
+  double moved = 0.0;
+  slot.law->state_rate(at, &middle, p, &rate);
+  slot.law->state_rate(at, &other, p, &moved);
+  const double slope = (moved - rate) / step;
+  const bool is_fast = -slope * sample.period > 1.0;
+  return is_fast ? middle + (sample.change[slot.state] / sample.period - rate) / slope : middle;
+}
+
 }  // namespace
 
 PlantTangent::PlantTangent(PlantDynamics& plant)
@@ -252,9 +267,10 @@ void PlantTangent::force_parameter_tangent(const ForceSlot& slot, const SampleMo
   const bool jumps = !rest && slot.law->jumps(here) > 0;
   effects::Values moved_back = moved;
   moved_back[static_cast<std::size_t>(id.parameter)] -= 2.0 * step;
-  const double* s = slot.state >= 0 ? x + slot.state : nullptr;
   const int states = slot.state >= 0 ? slot.law->state_count() : 0;
   const effects::Motion mean = plant_.motion(slot, x);
+  const double fast = states == 1 ? mean_of_fast_state(slot, mean, sample, x[slot.state], here) : 0.0;
+  const double* s = states == 1 ? &fast : slot.state >= 0 ? x + slot.state : nullptr;
   const effects::Motion half = half_change(slot, sample.change);
   const int parts = std::abs(half.velocity) > std::abs(mean.velocity) ? kPartsOfTurn : 1;
   const double reach =

@@ -425,8 +425,10 @@ std::vector<FreeParameter> free_parameters_of(const model::EffectUse& use, int e
                     parameter.lower,
                     parameter.upper,
                     typical[p]});
-    free.back().leaves_at_bound = use.law->state_count() > 0 && (parameter.null_value == parameter.lower ||
-                                                                 parameter.null_value == parameter.upper);
+    effects::Values gone = typical;
+    gone[p] = parameter.null_value;
+    const bool is_bound = parameter.null_value == parameter.lower || parameter.null_value == parameter.upper;
+    free.back().leaves_at_bound = is_bound && use.law->state_count() > 0 && use.law->is_null(gone.data());
   }
   return free;
 }
