@@ -46,19 +46,25 @@ std::vector<bool> sides_of_jumps(const ForceSlot& slot, const effects::Motion& a
   return sides;
 }
 
-/// A hidden state that is faster than the sample has its mean far from the middle: it is where its rate is
-/// the sample's change, to first order (exact for a first-order lag). A slow one is in the middle.
+/// A hidden state that is faster than the sample has its mean far from the middle: of a law that is linear in
+/// it, where its rate is the sample's change. Any other is taken in the middle.
 double mean_of_fast_state(const ForceSlot& slot, const effects::Motion& at, const SampleMotion& sample,
                           double middle, const double* p) {
+  constexpr double kLinear = 1e-3;
+  const double wanted = sample.change[slot.state] / sample.period;
+  const auto excess = [&](double s) {
+    double rate = 0.0;
+    slot.law->state_rate(at, &s, p, &rate);
+    return rate - wanted;
+  };
   const double step = 1e-7 * (1.0 + std::abs(middle));
-  const double other = middle + step;
-  double rate = 0.0;
-  double moved = 0.0;
-  slot.law->state_rate(at, &middle, p, &rate);
-  slot.law->state_rate(at, &other, p, &moved);
-  const double slope = (moved - rate) / step;
-  const bool is_fast = -slope * sample.period > 1.0;
-  return is_fast ? middle + (sample.change[slot.state] / sample.period - rate) / slope : middle;
+  const double here = excess(middle);
+  const double slope = (excess(middle + step) - here) / step;
+  if (!(-slope * sample.period > 1.0)) {
+    return middle;
+  }
+  const double mean = middle - here / slope;
+  return std::abs(excess(mean)) <= kLinear * std::abs(here) ? mean : middle;
 }
 
 }  // namespace
