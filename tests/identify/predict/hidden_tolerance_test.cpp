@@ -28,7 +28,7 @@ class FastHiddenState : public testing::TestWithParam<double> {
   const std::string folder_ = PLUMBLINE_ROOT "/tests/robots/pendulum/";
   const model::Model given_ = model::read_model(folder_ + "model.yaml", effects::Catalogue::all());
   const Trial trial_ = twin(given_, read_experiment(folder_ + "experiments/chirp.yaml", given_), {});
-  const Window window_{0, 100, 400};
+  const Window window_{0, 100, 150};
 };
 
 TEST_P(FastHiddenState, IsFollowedWithFewStepsAndWithinTheFloors) {
