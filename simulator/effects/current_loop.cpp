@@ -35,7 +35,7 @@ Values CurrentLoop::typical(const Scales& scales) const {
 // As of a winding: a short one delays in proportion to its time constant.
 std::vector<Values> CurrentLoop::starts(const Scales& scales) const {
   const double period = guarded(scales).period;
-  return {{0.1 * period, 0.7}, {3.0 * period, 0.4}};
+  return {{0.1 * period, 0.7}, {0.5 * period, 0.7}, {3.0 * period, 0.4}};
 }
 
 bool CurrentLoop::is_null(const double* p) const { return p[kTimeConstant] == 0.0; }

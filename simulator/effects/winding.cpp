@@ -32,12 +32,13 @@ Values Winding::typical(const Scales& scales) const {
   return {s.position / s.velocity, s.force / s.velocity};
 }
 
-// A short one delays in proportion to its length, so that from next to none a straight line leads to it; one
-// of several samples needs a start of its own.
+// A short one delays in proportion to its length, so that from next to none a straight line leads to it;
+// longer ones need starts of their own.
 std::vector<Values> Winding::starts(const Scales& scales) const {
   constexpr double kWeak = 0.03;  // of the usual torque at the usual speed
   const Scales s = guarded(scales);
-  return {{0.1 * s.period, kWeak * s.force / s.velocity}, {3.0 * s.period, kWeak * s.force / s.velocity}};
+  const double slope = kWeak * s.force / s.velocity;
+  return {{0.1 * s.period, slope}, {0.5 * s.period, slope}, {3.0 * s.period, slope}};
 }
 
 bool Winding::is_null(const double* p) const { return p[kTimeConstant] == 0.0; }
