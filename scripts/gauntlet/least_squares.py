@@ -143,10 +143,17 @@ def identify(chain, motors, trials, cutoff=10.0):
             table = smoothed(np.stack(parts + [needed[:, j]], axis=1), period, cutoff)[keep]
             rows[j].append(table)
     tables = [np.concatenate(one) for one in rows]
+    # Where the rigid bodies need no force at all (a point mass on the axis) all values at zero would fit: the gain is one there.
+    stated = [m for m in range(len(names)) if all(np.std(tables[j][:, -1]) < 1e-9 * np.std(tables[j][:, 5 * m]) for j in np.flatnonzero(W[m]))]
+    for table in tables:
+        for m in stated:
+            table[:, -1] -= table[:, 5 * m]
+            table[:, 5 * m] = 0.0
     weights = [1.0 / max(np.std(table[:, -1]), 1e-12) for table in tables]
     for _ in range(3):
         stacked = np.concatenate([w * table for w, table in zip(weights, tables)])
         values = np.linalg.lstsq(stacked[:, :-1], stacked[:, -1], rcond=None)[0]
+        values[[5 * m for m in stated]] = 1.0
         weights = [1.0 / max(np.std(t[:, :-1] @ values - t[:, -1]), 1e-12) for t in tables]
     found = {m: dict(zip(["gain", "inertia", "viscous", "coulomb", "bias"], values[5 * i:5 * i + 5])) for i, m in enumerate(names)}
     for one in found.values():
