@@ -31,17 +31,22 @@ OwnPart part_of(const Refit& refit, const Eigen::VectorXd& theta, int effect) {
   return part;
 }
 
-constexpr int kIterationsAnew = 8;
+/// Mean square (Refit::square) of a model with these parameters fitted anew.
+double square_anew(const model::Model& model, const std::vector<FreeParameter>& parameters,
+                   const std::vector<Eigen::VectorXd>& x0, const Data& data) {
+  constexpr int kIterations = 8;
+  PredictorPool pool(model, data);
+  return gauss_newton(pool, parameters, values_of(model, parameters), x0,
+                      {kIterations, kRefitTolerance, false})
+      .predicted.scores.square();
+}
 
-/// Mean square of a refit (Refit::square) with one parameter held where it is and all others fitted anew.
+/// Of a refit with one parameter held where it is and all others fitted anew.
 double square_held(std::size_t parameter, const Refit& refit, const Data& data) {
   std::vector<FreeParameter> others = refit.extended.parameters;
   const model::Model held = with_values(refit.extended.model, others, refit.estimate.predicted.theta);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
-  PredictorPool pool(held, data);
-  return gauss_newton(pool, others, values_of(held, others), refit.estimate.x0,
-                      {kIterationsAnew, kRefitTolerance, false})
-      .predicted.scores.square();
+  return square_anew(held, others, refit.estimate.x0, data);
 }
 
 /// The same with the parameter at its null value, where the law is null: with its states and its other values
@@ -57,11 +62,7 @@ double square_without(std::size_t parameter, double null, const Refit& refit, co
   others.erase(std::remove_if(others.begin(), others.end(),
                               [&](const FreeParameter& one) { return one.id.effect == id.effect; }),
                others.end());
-  PredictorPool pool(without, data);
-  return gauss_newton(pool, others, values_of(without, others),
-                      carried_states(with, without, data, refit.estimate.x0),
-                      {kIterationsAnew, kRefitTolerance, false})
-      .predicted.scores.square();
+  return square_anew(without, others, carried_states(with, without, data, refit.estimate.x0), data);
 }
 
 /// Is the error materially larger at the null value than at the value, whatever the other parameters do

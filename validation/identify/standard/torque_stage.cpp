@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <random>
@@ -153,6 +154,7 @@ FreeModel with_both(FreeModel a, const FreeModel& b, std::size_t common) {
 struct Round {
   std::vector<LawShare> shares;
   std::vector<double> falls;  ///< of the torques' error, relative to the model without any of them
+  std::vector<Judgement> judged;
 };
 
 Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy& policy) {
@@ -172,6 +174,7 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
     round.shares.push_back(one);
     round.falls.push_back(1.0 - std::exp(models[i + 1].log_error - models.front().log_error));
   }
+  round.judged.assign(std::make_move_iterator(models.begin() + 1), std::make_move_iterator(models.end()));
   return round;
 }
 
@@ -191,8 +194,7 @@ double needed_share(const TorqueProblem& problem, const Judge& judge, const Torq
     FreeModel both = with_both(screen.ranked[i].free, screen.ranked[index].free, own);
     const std::size_t further = both.values.size() - own;
     problem.search(both);
-    const Judgement alone = judge.judged(screen.ranked[i].free, screen.ranked[i].free.values.size() - own);
-    if (judge.shares({judge.judged(both, further), alone}, policy).front() >= policy.stable) {
+    if (judge.shares({judge.judged(both, further), round.judged[i]}, policy).front() >= policy.stable) {
       share += other.share;
       others.erase(std::remove_if(others.begin(), others.end(),
                                   [&](const LawShare& one) { return one.label() == other.label(); }),
@@ -228,9 +230,12 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     std::stable_sort(stage.open.begin(), stage.open.end(), is_more_probable);
     const auto best = std::min_element(round.shares.begin(), round.shares.end(), is_more_probable);
     const auto index = static_cast<std::size_t>(best - round.shares.begin());
+    if (round.falls[index] < policy.material || i == most) {
+      break;
+    }
     std::vector<LawShare> others = stage.open;
     const double share = needed_share(problem, judge, screen, round, index, policy, others);
-    if (share < policy.stable || round.falls[index] < policy.material || i == most) {
+    if (share < policy.stable) {
       break;
     }
     TorqueFinding finding;
