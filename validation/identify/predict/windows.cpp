@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "simulator/integrate/command_clock.h"
-#include "simulator/sensing/differentiation.h"
 #include "simulator/trace/error.h"
 #include "validation/identify/predict/jump_ode.h"
 #include "validation/identify/predict/tolerance.h"
@@ -22,64 +21,6 @@ long most_steps_of_sample(double tolerance) { return std::lround(2000.0 * std::c
 
 /// Explicit steps of a sample, in the mean, beyond which a linearly implicit method is the quicker one.
 constexpr double kStiff = 16.0;
-
-/// Temperatures are carried from the beginning of the record, where the motor is taken as cold, through its
-/// gaps, in which commands are held. What is longer ago than this, s, counts by its heat alone,
-constexpr double kHeat = 60.0;
-/// in steps of so many s.
-constexpr double kLongAgo = 1.0;
-
-/// Other hidden states are carried from so long ago that no more than this share of what they were then is
-/// left,
-constexpr double kForgotten = 1e-3;
-/// found by going back so many times further.
-constexpr double kLonger = 3.0;
-
-/// Does a state of the plant change over minutes: a temperature?
-bool remembers_heat(const model::Plant& plant) {
-  const std::vector<std::string> names = plant.state_names();
-  const std::vector<int> carried = plant.carried_states();
-  return std::any_of(carried.begin(), carried.end(), [&](int i) {
-    return names[static_cast<std::size_t>(i)].find("temperature of ") != std::string::npos;
-  });
-}
-
-/// Hidden states from the first sample to sample `to` under the root mean square of each step's commands,
-/// which is what heats; other states forget this. The robot stands at `motion`.
-void heat_up(const model::Plant& plant, const integrate::HeldCommands& commands, Eigen::Index to,
-             double period, const double* motion, double* x) {
-  const auto many = std::max<Eigen::Index>(1, std::lround(kLongAgo / period));
-  Eigen::VectorXd command(plant.motors());
-  for (Eigen::Index k = 0; k < to; k += many) {
-    const Eigen::Index end = std::min(to, k + many);
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(plant.motors());
-    for (Eigen::Index i = k; i < end; ++i) {
-      commands.at(i, 0, command.data());
-      squares += command.cwiseAbs2();
-    }
-    const auto count = static_cast<double>(end - k);
-    command = (squares / count).cwiseSqrt();
-    plant.carry_states(motion, motion, command.data(), count * period, x);
-  }
-}
-
-/// Where a sample's record begins, or the stretch of it without gaps.
-Eigen::Index beginning_of(const Trial& trial, Eigen::Index sample) {
-  Eigen::Index first = 0;
-  for (const Stretch& stretch : trial.stretches) {
-    first = stretch.first <= sample ? std::max(first, stretch.first) : first;
-  }
-  return first;
-}
-
-/// Channels x samples.
-Eigen::MatrixXd measured_channels(const Trial& trial) {
-  Eigen::MatrixXd y(static_cast<Eigen::Index>(trial.measured.size()), trial.samples());
-  for (std::size_t c = 0; c < trial.measured.size(); ++c) {
-    y.row(static_cast<Eigen::Index>(c)) = trial.measured[c].values.transpose();
-  }
-  return y;
-}
 
 }  // namespace
 
@@ -124,150 +65,23 @@ Predictor::Predictor(const model::Model& model, const Trial& trial, const Predic
   refresh_commands();
 }
 
+// What is recorded of commands stays the same while the delays and clocks that a search tries do.
 void Predictor::refresh_commands() {
   const std::vector<effects::ClockError> clocks = integrate::command_clocks(plant_);
+  std::vector<double> lateness = plant_.delays();
+  for (const effects::ClockError& clock : clocks) {
+    lateness.insert(lateness.end(), {clock.offset, clock.drift});
+  }
+  if (commands_ != nullptr && lateness == lateness_) {
+    return;
+  }
+  lateness_ = std::move(lateness);
+  command_squares_.resize(0, 0);
   commands_ = std::make_unique<integrate::HeldCommands>(
       integrate::is_any_wrong(clocks)
           ? integrate::on_clock_of_measurements(command_samples_, trial_.period, clocks)
           : command_samples_,
       trial_.period, plant_.delays(), commands_before_);
-}
-
-Eigen::MatrixXd Predictor::measured_positions() const {
-  return from_channels_.positions(with_starts(measured_channels(trial_), false));
-}
-
-// Of samples `from` to `to`, those that are not known yet: where poses are measured each takes a search.
-void Predictor::measure_motion(Eigen::Index from, Eigen::Index to) {
-  const Eigen::Index nz = plant_.positions();
-  if (motion_.size() == 0) {
-    motion_.resize(2 * nz, trial_.samples());
-    is_measured_.assign(static_cast<std::size_t>(trial_.samples()), false);
-    measured_rates_.resize(channels(), trial_.samples());
-    for (int c = 0; c < channels(); ++c) {
-      const Eigen::VectorXd& values = trial_.measured[static_cast<std::size_t>(c)].values;
-      measured_rates_.row(c) =
-          sensing::differentiate(values, trial_.period, sensing::DifferentiationOptions::acausal())
-              .transpose();
-    }
-  }
-  const auto is_known = [&](Eigen::Index k) { return is_measured_[static_cast<std::size_t>(k)]; };
-  while (from <= to && is_known(from)) {
-    ++from;
-  }
-  while (from <= to && is_known(to)) {
-    --to;
-  }
-  if (from > to) {
-    return;
-  }
-  const Eigen::Index count = to - from + 1;
-  const Eigen::MatrixXd values = with_starts(measured_channels(trial_).middleCols(from, count), false);
-  const Eigen::MatrixXd positions = from_channels_.positions(values);
-  motion_.block(0, from, nz, count) = positions;
-  motion_.block(nz, from, nz, count) =
-      from_channels_.rates(with_starts(measured_rates_.middleCols(from, count), true), positions, values);
-  std::fill(is_measured_.begin() + from, is_measured_.begin() + to + 1, true);
-}
-
-// From sample to sample; returns the share that is left at the end of a change at the beginning, which is not
-// asked where the record, or what it says of temperatures, begins there: then 0.
-double Predictor::carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, double* x) {
-  const std::vector<int> hidden = plant_.carried_states();
-  measure_motion(from, to);
-  Eigen::VectorXd command(plant_.motors());
-  is_warm || from == 0 ? commands_->before(command.data()) : commands_->at(from, 0, command.data());
-  plant_.settle(command.data(), x);
-  if (is_warm) {
-    heat_up(plant_, *commands_, from, trial_.period, motion_.col(from).data(), x);
-  }
-  const bool is_beginning = is_warm || from == beginning_of(trial_, to);
-  const Eigen::VectorXd settled = Eigen::Map<const Eigen::VectorXd>(x, plant_.states());
-  Eigen::VectorXd other = settled;
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(other.size());
-  for (const int i : hidden) {
-    change[i] = 1e-3 * (1.0 + std::abs(x[i]));
-  }
-  other += change;
-  std::vector<double*> carried{x};
-  if (!is_beginning) {
-    carried.push_back(other.data());
-  }
-  const std::vector<double>& breaks = commands_->breaks();
-  for (Eigen::Index k = from; k < to; ++k) {
-    for (std::size_t b = 0; b < breaks.size(); ++b) {
-      commands_->at(k, b, command.data());
-      const double next = b + 1 < breaks.size() ? breaks[b + 1] : 1.0;
-      for (double* states : carried) {
-        plant_.carry_states(motion_.col(k).data(), motion_.col(k + 1).data(), command.data(),
-                            (next - breaks[b]) * trial_.period, states);
-      }
-    }
-  }
-  if (is_beginning) {
-    return 0.0;
-  }
-  double left = 0.0;
-  for (const int i : hidden) {
-    const bool has_moved = x[i] != settled[i];  // what did not has nothing to remember
-    left = has_moved ? std::max(left, std::abs(other[i] - x[i]) / change[i]) : left;
-  }
-  return left;
-}
-
-void Predictor::carry_hidden(const Window& window, double* x) {
-  const std::vector<int> hidden = plant_.carried_states();
-  const bool too_short = trial_.samples() < sensing::DifferentiationOptions::acausal().window;
-  if (hidden.empty() || too_short) {
-    return;
-  }
-  const bool is_warm = remembers_heat(plant_);
-  const Eigen::Index earliest = is_warm ? 0 : beginning_of(trial_, window.first);
-  const auto samples = [&](double time) {
-    return static_cast<Eigen::Index>(std::lround(std::min(time, kHeat) / trial_.period));
-  };
-  for (double history = is_warm ? kHeat : options_.history;; history *= kLonger) {
-    const Eigen::Index from = std::max(earliest, window.first - samples(history));
-    if (carry_from(from, window.first, is_warm, x) < kForgotten || history >= kHeat) {
-      break;
-    }
-  }
-  if (plant_.loses_counts()) {
-    carry_losses(window.first, x);
-  }
-}
-
-// What a sensor has lost stays lost: carried from where the record begins, however long ago, with the mean of
-// its reading's rate between two samples.
-void Predictor::carry_losses(Eigen::Index to, double* x) const {
-  const Eigen::Index from = beginning_of(trial_, to);
-  for (int c = 0; c < channels(); ++c) {
-    const Eigen::VectorXd rates = 0.5 * (measured_rates_.row(c).segment(from, to - from) +
-                                         measured_rates_.row(c).segment(from + 1, to - from));
-    plant_.carry_losses(sensor_of_channel_[static_cast<std::size_t>(c)], rates, trial_.period, x);
-  }
-}
-
-// d(hidden states at the window's start)/d(parameters), states x parameters. The window has been run with the
-// present parameters: its first state holds what they were carried to.
-Eigen::MatrixXd Predictor::hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
-                                         const Eigen::VectorXd& steps) {
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(plant_.states(), steps.size());
-  const std::vector<int> owners = plant_.carried_state_effects();
-  const Eigen::VectorXd here = states_.col(0);
-  Eigen::VectorXd there = here;
-  for (std::size_t p = 0; p < ids.size(); ++p) {
-    if (std::find(owners.begin(), owners.end(), ids[p].effect) == owners.end()) {
-      continue;
-    }
-    const auto i = static_cast<Eigen::Index>(p);
-    const double value = plant_.value(ids[p]);
-    plant_.set_value(ids[p], value + steps[i]);
-    carry_hidden(window, there.data());
-    plant_.set_value(ids[p], value);
-    slopes.col(i) = (there - here) / steps[i];
-  }
-  return slopes;
 }
 
 // Near the ground the integrator's steps are pieces: the force changes much within a sample, and the steps

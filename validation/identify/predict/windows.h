@@ -232,7 +232,8 @@ class Predictor {
                           Eigen::VectorXd& x);
   void measure_motion(Eigen::Index from, Eigen::Index to);
   void carry_hidden(const Window& window, double* x);
-  double carry_from(Eigen::Index from, Eigen::Index to, bool is_warm, double* x);
+  const Eigen::MatrixXd& command_squares();
+  double carry_from(Eigen::Index from, Eigen::Index to, const std::vector<int>& warm, double* x);
   void carry_losses(Eigen::Index to, double* x) const;
   Eigen::MatrixXd hidden_slopes(const Window& window, const std::vector<model::ParameterId>& ids,
                                 const Eigen::VectorXd& steps);
@@ -249,6 +250,9 @@ class Predictor {
   Eigen::MatrixXd command_samples_;
   Eigen::VectorXd commands_before_;
   std::unique_ptr<integrate::HeldCommands> commands_;
+  std::vector<double> lateness_;  // delays and clocks of which commands_ are
+  Eigen::MatrixXd
+      command_squares_;  // of the commands before each sample, summed; empty until they are needed
   Eigen::VectorXd reading_command_;  // of the last reading
   std::vector<int> foot_of_switch_;
   // Of the last run: states x nodes; a node is a sample or, with a ground and where a force jumps, a point
