@@ -15,29 +15,6 @@ namespace {
 
 constexpr std::size_t kPairs = 6;  // that are returned
 
-/// The data with a limit to the integrator steps in a window: a candidate that needs many more than the stage
-/// would be stiffer than anything that the samples could show, and cost as much as all others together.
-Data without_stiffness(const Stage& stage, const Data& data) {
-  constexpr double kLeast = 15.0;  // in a sample
-  constexpr double kTimesTheStage = 3.0;
-  constexpr double kEvaluationsOfStep = 3.0;
-  PredictorPool pool(stage.model, data);
-  std::vector<double> steps(data.windows.size());  // of a sample; few windows may hold an impact
-  parallel_for(static_cast<int>(steps.size()), data.threads, [&](int i) {
-    const auto w = static_cast<std::size_t>(i);
-    pool.with(i, stage.parameters, stage.estimate.theta, [&](Predictor& predictor) {
-      const long before = predictor.evaluations();
-      predictor.residual(data.windows[w], stage.estimate.x0[w]);
-      steps[w] = static_cast<double>(predictor.evaluations() - before) /
-                 (kEvaluationsOfStep * static_cast<double>(data.windows[w].count));
-    });
-  });
-  const double most = *std::max_element(steps.begin(), steps.end());
-  Data limited = data;
-  limited.predict.most_steps = std::max(kLeast, kTimesTheStage * most);
-  return limited;
-}
-
 /// They join the others, and are no longer among those that failed.
 void add_refits(std::vector<Refit> refits, Tried& tried) {
   for (Refit& one : refits) {
@@ -51,29 +28,6 @@ void add_refits(std::vector<Refit> refits, Tried& tried) {
   tried.refits = first_of_each(std::move(tried.refits), [](const Refit& one, const Refit& other) {
     return one.candidate == other.candidate;
   });
-}
-
-/// What could not be followed within this limit, but promises to come as near to the floor as the best: it
-/// may be the law that is hidden, and the best its rival.
-void refit_stiff(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
-  if (tried.refits.empty() || !is_below(policy.far, tried.refits.front().estimate, data)) {
-    return;
-  }
-  const double near = (1.0 + policy.near_best) * tried.refits.front().square() + 0.05;
-  std::set<int> stiff;
-  for (const NotRefitted& one : tried.failed) {
-    stiff.insert(one.candidate);
-  }
-  std::vector<Hypothesis> again;
-  for (const Hypothesis& one : tried.hypotheses) {
-    if (one.promised() <= near && stiff.erase(one.candidate) > 0) {
-      again.push_back(one);
-    }
-  }
-  if (again.empty()) {
-    return;
-  }
-  add_refits(refit(tried.stage, tried.candidates, again, data, policy, progress), tried);
 }
 
 /// Those of the family of the best refit at its place.
@@ -162,14 +116,13 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
   };
   tried.candidates.erase(std::remove_if(tried.candidates.begin(), tried.candidates.end(), is_taken),
                          tried.candidates.end());
-  tried.hypotheses = screen(stage, tried.candidates, without_stiffness(stage, data), progress, &tried.later);
+  tried.hypotheses = screen(stage, tried.candidates, data, progress, &tried.later);
   return tried;
 }
 
 void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
-  tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, without_stiffness(tried.stage, data),
+  tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, data,
                        policy, progress, &tried.failed);
-  refit_stiff(data, policy, progress, tried);
 }
 
 void refit_later(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
@@ -184,12 +137,10 @@ void refit_later(const Data& data, const Policy& policy, const Progress& progres
   if (later.empty()) {
     return;
   }
-  const Data quick = without_stiffness(tried.stage, data);
-  later = screen_later(tried.stage, tried.candidates, std::move(later), quick, progress);
-  add_refits(refit(tried.stage, tried.candidates, later, quick, policy, progress, &tried.failed), tried);
+  later = screen_later(tried.stage, tried.candidates, std::move(later), data, progress);
+  add_refits(refit(tried.stage, tried.candidates, later, data, policy, progress, &tried.failed), tried);
   tried.hypotheses.insert(tried.hypotheses.end(), later.begin(), later.end());
   sort_by_promise(tried.hypotheses);
-  refit_stiff(data, policy, progress, tried);
 }
 
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,
@@ -211,14 +162,13 @@ std::vector<Pair> look_ahead(const Tried& tried, const effects::Catalogue& catal
   }
   tangents = first_lot(tried.candidates, std::move(tangents));
   progress("pairs of " + std::to_string(tangents.size()) + " linear candidates", 0.0);
-  const Data quick = without_stiffness(tried.stage, data);
-  for (const PairHypothesis& promise : Tangents(tried.stage, tried.candidates, tangents, quick)
+  for (const PairHypothesis& promise : Tangents(tried.stage, tried.candidates, tangents, data)
                                            .pairs(static_cast<std::size_t>(policy.linear_pairs))) {
     const Candidate& first = tried.candidates[static_cast<std::size_t>(promise.first.candidate)];
     const Candidate& second = tried.candidates[static_cast<std::size_t>(promise.second.candidate)];
     progress("refitting " + first.label() + " with " + second.label(), 0.5);
     try {
-      pairs.push_back({first, second, refit_pair(tried.stage, first, second, promise, quick)});
+      pairs.push_back({first, second, refit_pair(tried.stage, first, second, promise, data)});
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error&) {

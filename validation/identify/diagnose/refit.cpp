@@ -113,27 +113,13 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
   return chosen;
 }
 
-/// Has it corners, or takes it many times the work of the stage, or of what the samples could show? Then the
-/// search of its many short contacts takes longer than all others together.
-bool is_dear(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage, const Data& data,
-             double work_of_stage) {
-  constexpr double kMany = 15.0;
-  constexpr double kOfSample = 100.0;  // rate evaluations
-  const Extended extended = extend(stage, candidate, hypothesis.start);
-  if (jumps(extended.model.effects.back())) {
-    return true;
-  }
-  const double work =
-      work_of(with_values(extended.model, extended.parameters, promised_theta(extended, hypothesis)), data);
-  return work > kMany * work_of_stage || work > kOfSample;
-}
-
-/// Far above the floor: the dear ones last. Returns how many are not.
+/// Far above the floor: those with corners last, the search of their many short contacts takes longer than
+/// all others together. Returns how many are not.
 std::size_t dear_last(std::vector<const Hypothesis*>& chosen, const std::vector<Candidate>& candidates,
-                      const Stage& stage, const Data& data) {
-  const double work_of_stage = work_of(fitted_model(stage), data);
+                      const Stage& stage) {
   const auto dear = std::stable_partition(chosen.begin(), chosen.end(), [&](const Hypothesis* one) {
-    return !is_dear(candidates[static_cast<std::size_t>(one->candidate)], *one, stage, data, work_of_stage);
+    return !jumps(extend(stage, candidates[static_cast<std::size_t>(one->candidate)], one->start)
+                      .model.effects.back());
   });
   return static_cast<std::size_t>(dear - chosen.begin());
 }
@@ -237,7 +223,7 @@ class Round {
     if (is_above_) {
       corners_last(chosen);
     }
-    const std::size_t cheap = is_far_ ? dear_last(chosen, candidates_, stage_, data_) : chosen.size();
+    const std::size_t cheap = is_far_ ? dear_last(chosen, candidates_, stage_) : chosen.size();
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (i >= cheap && (!policy_.dear || is_explained())) {
         report(*chosen[i], "it takes many times the work; refitted where nothing else explains much");
