@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <utility>
 
 #include "simulator/effects/parameters.h"
 
@@ -43,11 +45,16 @@ Values VoltageLimit::typical(const Scales& scales) const {
 }
 
 // The limit must cut something of the usual torque for a search to see it: near its peaks, at speed.
+// Torque clipped alone, or speed, or both: along its limit a search sees no way to another one. Peaks of a
+// motion's torque are at two to three times their root mean square.
 std::vector<Values> VoltageLimit::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
-  return {{1.2 * s.force, 12.0 * s.velocity},
-          {2.0 * s.force, 5.0 * s.velocity},
-          {4.0 * s.force, 2.5 * s.velocity}};
+  std::vector<Values> starts;
+  for (const auto& [stall, no_load] : std::initializer_list<std::pair<double, double>>{
+           {1.2, 12.0}, {2.0, 5.0}, {4.0, 2.5}, {2.0, 12.0}, {2.8, 12.0}, {2.8, 5.0}, {2.8, 2.5}}) {
+    starts.push_back({stall * s.force, no_load * s.velocity});
+  }
+  return starts;
 }
 
 bool VoltageLimit::is_null(const double* p) const { return std::isinf(p[kStallTorque]); }

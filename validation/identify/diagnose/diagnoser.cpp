@@ -277,7 +277,6 @@ bool Diagnoser::step(Diagnosis& diagnosis, int round) {
   }
   if (!group) {
     refit_candidates(data_, policy, progress_, tried);
-    refit_later(data_, policy, progress_, tried);
   }
   const Choice choice = choose(tried.stage, tried.refits, data_, policy);
   const std::vector<RankRow> rows = ranking_of(tried, choice, data_, policy);

@@ -28,25 +28,6 @@ const std::vector<std::vector<std::string>>& families() {
 
 constexpr int kFriction = 0;
 
-/// A law that is costly to try, and laws without states that depend on the same (command, velocity,
-/// acceleration) and take a share of what it does.
-struct Forerunners {
-  std::string law;
-  std::vector<std::string> of;
-};
-
-const std::vector<Forerunners>& forerunners() {
-  static const std::vector<Forerunners> kForerunners{
-      {"voltage_limit", {"torque_saturation", "torque_constant_error", "viscous", "quadratic"}},
-      {"thermal_motor", {"torque_constant_error", "torque_saturation"}},
-      {"current_loop", {"command_delay", "torque_constant_error"}},
-      {"winding", {"command_delay", "torque_constant_error", "viscous"}},
-      {"harmonic_drive", {"rotor_inertia", "viscous", "spring", "torque_constant_error"}},
-      {"slipping_coupling", {"torque_saturation", "torque_constant_error", "coulomb", "viscous"}},
-      {"resonator", {"viscous", "spring", "hardening", "rotor_inertia"}}};
-  return kForerunners;
-}
-
 int family_of(const effects::Law& law) {
   const std::string& name = law.declaration().name;
   for (std::size_t f = 0; f < families().size(); ++f) {
@@ -58,18 +39,6 @@ int family_of(const effects::Law& law) {
 }
 
 }  // namespace
-
-bool has_forerunners(const effects::Law& law) {
-  return std::any_of(forerunners().begin(), forerunners().end(),
-                     [&](const Forerunners& one) { return one.law == law.declaration().name; });
-}
-
-bool is_forerunner(const effects::Law& first, const effects::Law& law) {
-  return std::any_of(forerunners().begin(), forerunners().end(), [&](const Forerunners& one) {
-    return one.law == law.declaration().name &&
-           std::find(one.of.begin(), one.of.end(), first.declaration().name) != one.of.end();
-  });
-}
 
 bool is_friction(const effects::Law& law) { return family_of(law) == kFriction; }
 

@@ -32,10 +32,4 @@ bool is_friction(const effects::Law& law);
 /// Does the law of this name change a body as something that hangs there does?
 bool may_be_payload(const std::string& law);
 
-/// Is the law so costly to try (it has states, or is nothing but beyond a threshold) that laws which depend
-/// on the same are asked first?
-bool has_forerunners(const effects::Law& law);
-/// Is `first` one of them?
-bool is_forerunner(const effects::Law& first, const effects::Law& law);
-
 }  // namespace plumbline::validation

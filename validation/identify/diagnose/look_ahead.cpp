@@ -15,32 +15,6 @@ namespace {
 
 constexpr std::size_t kPairs = 6;  // that are returned
 
-/// They join the others, and are no longer among those that failed.
-void add_refits(std::vector<Refit> refits, Tried& tried) {
-  for (Refit& one : refits) {
-    tried.failed.erase(
-        std::remove_if(tried.failed.begin(), tried.failed.end(),
-                       [&](const NotRefitted& failed) { return failed.candidate == one.candidate; }),
-        tried.failed.end());
-    tried.refits.push_back(std::move(one));
-  }
-  sort_by_error(tried.refits);
-  tried.refits = first_of_each(std::move(tried.refits), [](const Refit& one, const Refit& other) {
-    return one.candidate == other.candidate;
-  });
-}
-
-/// Those of the family of the best refit at its place.
-void keep_family(const Tried& tried, std::vector<Hypothesis>& hypotheses) {
-  const Candidate& best = tried.candidates[static_cast<std::size_t>(tried.refits.front().candidate)];
-  const TiedPlaces tied(tried.stage.model);
-  const auto is_elsewhere = [&](const Hypothesis& one) {
-    const Candidate& candidate = tried.candidates[static_cast<std::size_t>(one.candidate)];
-    return !tied.are_one(candidate.at, best.at) || !are_of_one_family(*candidate.law, *best.law);
-  };
-  hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), is_elsewhere), hypotheses.end());
-}
-
 /// The same two candidates, in whichever order.
 bool is_same(const Pair& one, const Pair& other) {
   return (one.first.label() == other.first.label() && one.second.label() == other.second.label()) ||
@@ -116,31 +90,13 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
   };
   tried.candidates.erase(std::remove_if(tried.candidates.begin(), tried.candidates.end(), is_taken),
                          tried.candidates.end());
-  tried.hypotheses = screen(stage, tried.candidates, data, progress, &tried.later);
+  tried.hypotheses = screen(stage, tried.candidates, data, progress);
   return tried;
 }
 
 void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
-  tried.refits = refit(tried.stage, tried.candidates, tried.hypotheses, data,
-                       policy, progress, &tried.failed);
-}
-
-void refit_later(const Data& data, const Policy& policy, const Progress& progress, Tried& tried) {
-  std::vector<Hypothesis> later = std::move(tried.later);
-  tried.later.clear();
-  if (tried.refits.empty()) {
-    return;
-  }
-  if (is_below(policy.finished, tried.refits.front().estimate, data)) {
-    keep_family(tried, later);
-  }
-  if (later.empty()) {
-    return;
-  }
-  later = screen_later(tried.stage, tried.candidates, std::move(later), data, progress);
-  add_refits(refit(tried.stage, tried.candidates, later, data, policy, progress, &tried.failed), tried);
-  tried.hypotheses.insert(tried.hypotheses.end(), later.begin(), later.end());
-  sort_by_promise(tried.hypotheses);
+  tried.refits =
+      refit(tried.stage, tried.candidates, tried.hypotheses, data, policy, progress, &tried.failed);
 }
 
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,

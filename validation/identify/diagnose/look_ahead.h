@@ -19,8 +19,7 @@ struct Tried {
   Stage stage;
   std::vector<Candidate> candidates;
   std::vector<Hypothesis> hypotheses;
-  std::vector<Hypothesis> later;  ///< costly ones that have not been screened
-  std::vector<Refit> refits;      ///< best first
+  std::vector<Refit> refits;  ///< best first
   std::vector<NotRefitted> failed;
 };
 
@@ -30,10 +29,6 @@ Tried screen_candidates(const Stage& stage, const effects::Catalogue& catalogue,
 
 /// The best of what was screened, refitted.
 void refit_candidates(const Data& data, const Policy& policy, const Progress& progress, Tried& tried);
-
-/// The costly laws that wait, where the best refit is no answer: "none that is known" and "a part" can only
-/// be said of what was tried. Beside an answer those of its family at its place, which may be its rivals.
-void refit_later(const Data& data, const Policy& policy, const Progress& progress, Tried& tried);
 
 /// Both.
 Tried try_candidates(const Stage& stage, const effects::Catalogue& catalogue,

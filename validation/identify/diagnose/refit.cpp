@@ -118,8 +118,8 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
 std::size_t dear_last(std::vector<const Hypothesis*>& chosen, const std::vector<Candidate>& candidates,
                       const Stage& stage) {
   const auto dear = std::stable_partition(chosen.begin(), chosen.end(), [&](const Hypothesis* one) {
-    return !jumps(extend(stage, candidates[static_cast<std::size_t>(one->candidate)], one->start)
-                      .model.effects.back());
+    return !jumps(
+        extend(stage, candidates[static_cast<std::size_t>(one->candidate)], one->start).model.effects.back());
   });
   return static_cast<std::size_t>(dear - chosen.begin());
 }

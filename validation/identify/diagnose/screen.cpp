@@ -169,37 +169,6 @@ void keep_where_family_promises(const std::vector<Candidate>& candidates,
   starts.erase(std::remove_if(starts.begin(), starts.end(), is_elsewhere), starts.end());
 }
 
-/// Laws that are costly to try stay at the places where one that depends on the same promises a noticeable
-/// share of what is above the floor, and there the most. Returns the others.
-std::vector<Hypothesis> keep_behind_forerunners(const std::vector<Candidate>& candidates,
-                                                const std::vector<Hypothesis>& tangents, const Stage& stage,
-                                                const TiedPlaces& tied, std::vector<Hypothesis>& starts) {
-  constexpr double kNoticeable = 0.1;
-  constexpr std::size_t kPlaces = 2;
-  constexpr double kFloors = 2.0;  // the floor, of train and held-out windows
-  const double now = stage.estimate.predicted.scores.square();
-  const double most = now - kNoticeable * std::max(now - kFloors, 0.0);
-  const auto is_kept = [&](const Hypothesis& start) {
-    const Candidate& costly = candidate_of(candidates, start);
-    std::vector<std::string> first;  // places, the most promising first
-    for (const Hypothesis& one : tangents) {
-      const Candidate& candidate = candidate_of(candidates, one);
-      if (first.size() < kPlaces && one.promised() < most && is_forerunner(*candidate.law, *costly.law) &&
-          std::find(first.begin(), first.end(), candidate.at) == first.end()) {
-        first.push_back(candidate.at);
-      }
-    }
-    return std::any_of(first.begin(), first.end(),
-                       [&](const std::string& at) { return tied.are_one(at, costly.at); });
-  };
-  const auto later = std::stable_partition(starts.begin(), starts.end(), [&](const Hypothesis& start) {
-    return !has_forerunners(*candidate_of(candidates, start).law) || is_kept(start);
-  });
-  std::vector<Hypothesis> others(std::make_move_iterator(later), std::make_move_iterator(starts.end()));
-  starts.erase(later, starts.end());
-  return others;
-}
-
 constexpr std::size_t kFew = 4;  // one window of so many is enough to leave out what promises nothing
 
 /// The third of the starts that promises most on a few windows.
@@ -306,7 +275,7 @@ Eigen::VectorXd promised_theta(const Extended& extended, const Hypothesis& hypot
 }
 
 std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
-                               const Progress& progress, std::vector<Hypothesis>* later) {
+                               const Progress& progress) {
   std::vector<Hypothesis> tangents;
   std::vector<Hypothesis> starts;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -321,26 +290,13 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   progress("screening " + std::to_string(tangents.size()) + " linear candidates", 0.0);
   std::vector<Hypothesis> found = promises_of(stage, candidates, tangents, data);
   sort_by_promise(found);
-  const TiedPlaces tied(stage.model);
-  keep_where_family_promises(candidates, found, tied, starts);
-  if (later != nullptr) {
-    *later = keep_behind_forerunners(candidates, found, stage, tied, starts);
-  }
+  keep_where_family_promises(candidates, found, TiedPlaces(stage.model), starts);
   const Part part = enough_to_tell(stage, data);
   screen_those(stage, candidates, data, part, progress, starts);
   found.insert(found.end(), starts.begin(), starts.end());
   sort_by_promise(found);
   look_again(stage, candidates, data, part, progress, found);
   return found;
-}
-
-std::vector<Hypothesis> screen_later(const Stage& stage, const std::vector<Candidate>& candidates,
-                                     std::vector<Hypothesis> later, const Data& data,
-                                     const Progress& progress) {
-  const Part part = enough_to_tell(stage, data);
-  screen_those(stage, candidates, data, part, progress, later);
-  look_again(stage, candidates, data, part, progress, later);
-  return later;
 }
 
 }  // namespace plumbline::validation

@@ -42,16 +42,9 @@ void sort_by_promise(std::vector<Hypothesis>& hypotheses);
 
 using Progress = std::function<void(const std::string& what, double fraction)>;
 
-/// Best promise first. Every candidate that moves the prediction at all is in the list, but that where
-/// `later` is given laws that are costly to try, and of which no simpler one that depends on the same
-/// promises a noticeable share, wait there, not yet screened.
+/// Best promise first. Every candidate that moves the prediction at all is in the list.
 std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>& candidates, const Data& data,
-                               const Progress& progress, std::vector<Hypothesis>* later = nullptr);
-
-/// The same of starts that have waited.
-std::vector<Hypothesis> screen_later(const Stage& stage, const std::vector<Candidate>& candidates,
-                                     std::vector<Hypothesis> later, const Data& data,
-                                     const Progress& progress);
+                               const Progress& progress);
 
 /// The stage's model with the candidate added at these values; parameters: the stage's, then the candidate's.
 struct Extended {

@@ -1,6 +1,7 @@
 #include "validation/identify/predict/estimate.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -236,6 +237,8 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
   } else {
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   }
+  // A step to where nothing can be predicted is taken back; the library prints all its numbers beside that.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (pool.data().stop != nullptr && pool.data().stop->raised) {
