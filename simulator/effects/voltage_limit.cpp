@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
-#include <utility>
 
 #include "simulator/effects/parameters.h"
 
@@ -45,14 +43,16 @@ Values VoltageLimit::typical(const Scales& scales) const {
 }
 
 // The limit must cut something of the usual torque for a search to see it: near its peaks, at speed.
-// Torque clipped alone, or speed, or both: along its limit a search sees no way to another one. Peaks of a
-// motion's torque are at two to three times their root mean square.
+// A limit that is never reached has no slope, and one that always is explains nothing: a search begins where
+// the first samples reach it. Peaks of a motion's torque are at one and a half to four times its root mean
+// square.
 std::vector<Values> VoltageLimit::starts(const Scales& scales) const {
   const Scales s = guarded(scales);
-  std::vector<Values> starts;
-  for (const auto& [stall, no_load] : std::initializer_list<std::pair<double, double>>{
-           {1.2, 12.0}, {2.0, 5.0}, {4.0, 2.5}, {2.0, 12.0}, {2.8, 12.0}, {2.8, 5.0}, {2.8, 2.5}}) {
-    starts.push_back({stall * s.force, no_load * s.velocity});
+  std::vector<Values> starts{{1.2 * s.force, 12.0 * s.velocity}, {4.0 * s.force, 2.5 * s.velocity}};
+  for (const double stall : {1.6, 2.0, 2.4, 2.8, 3.4}) {
+    for (const double no_load : {5.0, 12.0}) {
+      starts.push_back({stall * s.force, no_load * s.velocity});
+    }
   }
   return starts;
 }

@@ -77,14 +77,33 @@ std::vector<Eigen::VectorXd> start_states(const Stage& stage, const Extended& ex
                              : std::vector<Eigen::VectorXd>(data.windows.size());
 }
 
+/// Some of the windows, and what mean squared error the stage has on all as a multiple of what the same
+/// linearisation promises there of the stage itself: promises made on them are brought to all windows by it.
+/// A law that does nothing then promises what the stage has.
+struct Part {
+  std::vector<int> windows;
+  double train = 1.0, held_out = 1.0;
+};
+
+Part part_of(const Stage& stage, std::vector<int> windows, const Data& data) {
+  const Extended as_it_is{fitted_model(stage), stage.parameters,
+                          values_of(fitted_model(stage), stage.parameters)};
+  const Promise promise = kept_promise(as_it_is, 0, data, windows, start_states(stage, as_it_is, data));
+  const Scores& now = stage.estimate.predicted.scores;
+  const auto times = [](double error, double promised) {
+    return error > 0.0 && std::isfinite(promised) ? error * error / promised : 1.0;
+  };
+  return {std::move(windows), times(now.train, promise.train), times(now.held_out, promise.held_out)};
+}
+
 void screen_start(const Stage& stage, const std::vector<Candidate>& candidates, Hypothesis& hypothesis,
                   const Data& data, const Part& part) {
   const Extended extended = extend(stage, candidate_of(candidates, hypothesis), hypothesis.start);
   const Promise promise = kept_promise(extended, extended.parameters.size() - stage.parameters.size(), data,
                                        part.windows, start_states(stage, extended, data));
   hypothesis.step = promise.step;
-  hypothesis.promised_train = promise.train / part.train_share;
-  hypothesis.promised_held_out = promise.held_out / part.held_out_share;
+  hypothesis.promised_train = promise.train * part.train;
+  hypothesis.promised_held_out = promise.held_out * part.held_out;
 }
 
 /// Each of them by one of the ranks, where there are several.
@@ -291,7 +310,7 @@ std::vector<Hypothesis> screen(const Stage& stage, const std::vector<Candidate>&
   std::vector<Hypothesis> found = promises_of(stage, candidates, tangents, data);
   sort_by_promise(found);
   keep_where_family_promises(candidates, found, TiedPlaces(stage.model), starts);
-  const Part part = enough_to_tell(stage, data);
+  const Part part = part_of(stage, enough_to_tell(stage, data), data);
   screen_those(stage, candidates, data, part, progress, starts);
   found.insert(found.end(), starts.begin(), starts.end());
   sort_by_promise(found);
