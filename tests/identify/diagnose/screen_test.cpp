@@ -22,5 +22,20 @@ TEST(Screen, SeesAStiffCableBetweenALightMotorAndAHeavyLoad) {
   EXPECT_LT(left, 1.2) << "mean square, the floor's is 1; 1.5 from 50 Hz";
 }
 
+// A limit that the motion does not reach explains nothing of a stop: it must not promise the error that some
+// of the windows happen to have.
+TEST(Screen, LawThatDoesNothingPromisesWhatTheModelHas) {
+  const Data data = pendulum_twins(
+      {"hard_stop@shoulder:cubic_stiffness=1e3,damping=0,root_damping=0,position=0.3,side=1,pulls=0"});
+  ASSERT_GT(data.all_windows().size(), 16U) << "some of them are enough to tell";
+  const Stage stage = as_given(pendulum_drive(), data);
+  PredictorPool pool(stage.model, data);
+  const std::vector<Candidate> candidates =
+      list_candidates(pool, some_laws({"voltage_limit"}), {}, stage.estimate);
+  const std::vector<Hypothesis> promises = screen(stage, candidates, data, silent);
+  const double had = stage.estimate.predicted.scores.square();
+  EXPECT_NEAR(first_of("voltage_limit@drive", promises, candidates).promised(), had, 0.1 * had);
+}
+
 }  // namespace
 }  // namespace plumbline::validation
