@@ -10,7 +10,6 @@
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/race.h"
 #include "validation/identify/diagnose/refit_one.h"
-#include "validation/identify/diagnose/work.h"
 #include "validation/identify/predict/work_ahead.h"
 
 namespace plumbline::validation {
