@@ -103,6 +103,11 @@ const InPlace& simplest_near_best(const std::vector<InPlace>& better, const Poli
                            [&](const InPlace& a, const InPlace& b) { return complexity(a) < complexity(b); });
 }
 
+/// How far the model's numbers are from what is stated of them, in squared deviations.
+double strain_of(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta) {
+  return prior(parameters, search_units(parameters, theta), theta).square;
+}
+
 void drop_rival(const Candidate& candidate, Finding& finding) {
   finding.rivals.erase(std::remove_if(finding.rivals.begin(), finding.rivals.end(),
                                       [&](const Rival& rival) { return is_named(candidate, rival.name); }),
@@ -190,10 +195,14 @@ void name_payloads(const effects::Catalogue& catalogue, const Data& data, const 
     }
     progress("a payload for " + finding.label(), 0.9);
     const auto [without, present] = in_question(i, data, diagnosis);
+    const Stage& named = diagnosis.final_stage;
+    const double strain = strain_of(named.parameters, named.estimate.theta);
     const std::vector<Rival> payload{{{"payload", finding.at}, 0.0, false}};
     for (const InPlace& one : tried_in_place(without, payload, catalogue, data, policy, progress)) {
       const double wins = share_better(one.refit, present, data, policy);
-      if (wins >= policy.fair && one.refit.square() < near * present.square() &&
+      const double more = strain_of(one.refit.extended.parameters, one.refit.estimate.theta) - strain;
+      const bool is_believable = std::exp(-0.5 * more) >= policy.fair;
+      if (wins >= policy.fair && is_believable && one.refit.square() < near * present.square() &&
           refusal(without, one.refit, data, policy).empty()) {
         replace(i, one, without, wins * finding.selected_share, data, policy, diagnosis);
         return name_payloads(catalogue, data, policy, progress, diagnosis);

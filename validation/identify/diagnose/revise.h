@@ -16,7 +16,8 @@ void revise_rivals(const effects::Catalogue& catalogue, const Data& data, const 
 
 /// A mass that was added to a body, and a centre of mass that was shifted, are what something that hangs
 /// there does. Where a payload at the body leaves the same error, within Policy::simpler, it is the name, and
-/// the other one its rival with the share of the resamples in which it is better.
+/// the other one its rival with the share of the resamples in which it is better. Not so where the payload
+/// asks for numbers of the robot that are less believable (at Policy::fair) than those beside the other one.
 void name_payloads(const effects::Catalogue& catalogue, const Data& data, const Policy& policy,
                    const Progress& progress, Diagnosis& diagnosis);
 
