@@ -32,13 +32,13 @@ void finish_leader(const Stage& stage, std::vector<Refit>& refits, const std::ve
   }
 }
 
-/// A friction of fewer parameters at the place of a friction that leads: how it fades towards standstill is
-/// fitted in the full refit alone, and it may be as good then.
-bool is_simpler_friction(const Refit& one, const Refit& leader, const std::vector<Candidate>& candidates) {
+/// A law of fewer parameters and of the family of one that leads at its place: a few steps may have led it
+/// nowhere, or how a friction fades towards standstill is fitted in the full refit alone, and it is as good
+/// then.
+bool is_simpler_of_family(const Refit& one, const Refit& leader, const std::vector<Candidate>& candidates) {
   const Candidate& simple = candidates[static_cast<std::size_t>(one.candidate)];
   const Candidate& leading = candidates[static_cast<std::size_t>(leader.candidate)];
-  return one.own < leader.own && simple.at == leading.at && is_friction(*simple.law) &&
-         is_friction(*leading.law);
+  return one.own < leader.own && simple.at == leading.at && are_of_one_family(*simple.law, *leading.law);
 }
 
 /// Those that satisfy the test, in full, each by one of the ranks where there are several.
@@ -59,14 +59,14 @@ void finish_ahead(const std::vector<Refit>& refits, double square_before,
   work_ahead(data, pieces);
 }
 
-/// Full refits of those that are near the best, and of simpler frictions in its place; above the floor of the
+/// Full refits of those that are near the best, and of simpler laws of its family in its place; above the floor of the
 /// first few in any case: the best so far may be refused, or a law with a threshold may still be on its way.
 void finish(std::vector<Refit>& refits, double square_before, const std::vector<Candidate>& candidates,
             const Data& data, const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
   const auto is_wanted = [&](std::size_t r) {
     const bool near = refits[r].square() < (1.0 + policy.near_best) * refits.front().square() + 0.05;
-    return near || is_simpler_friction(refits[r], refits.front(), candidates) ||
+    return near || is_simpler_of_family(refits[r], refits.front(), candidates) ||
            (r < kFirst && !at_floor(refits, data, policy));
   };
   finish_ahead(refits, square_before, candidates, data, policy, is_wanted);
