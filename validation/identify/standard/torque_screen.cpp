@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "validation/identify/diagnose/candidates.h"
 #include "validation/identify/diagnose/own_parameters.h"
@@ -165,13 +166,30 @@ class Screen {
   int positions_ = 0;
 };
 
+std::vector<Candidate> candidates_at(const model::Model& model, const effects::Catalogue& catalogue,
+                                     const Data& data) {
+  PredictorPool pool(model, data);
+  return list_candidates(pool, catalogue, {}, estimate_states(pool));
+}
+
+/// Torques may ask for numbers with which no motion can be integrated; the model as stated then says what can
+/// be asked of it.
+std::vector<Candidate> candidates_at(const FreeModel& own, const effects::Catalogue& catalogue,
+                                     const Data& data) {
+  try {
+    return candidates_at(identified(own), catalogue, data);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return candidates_at(own.model, catalogue, data);
+  }
+}
+
 /// Without those that `own` has values of already: what a model states of a number, with its uncertainty, is
 /// known of it, and a second one of the kind without any would only go round that.
 std::vector<Candidate> candidates_of(const FreeModel& own, const effects::Catalogue& catalogue,
                                      const Data& data) {
-  const Data some = data.thinned(Policy{}.windows);
-  PredictorPool pool(identified(own), some);
-  std::vector<Candidate> candidates = list_candidates(pool, catalogue, {}, estimate_states(pool));
+  std::vector<Candidate> candidates = candidates_at(own, catalogue, data.thinned(Policy{}.windows));
   const auto is_named = [&](const Candidate& candidate) {
     return std::any_of(own.values.begin(), own.values.end(), [&](const FreeValue& value) {
       return own.model.effects[static_cast<std::size_t>(value.id.effect)].label() == candidate.label();
