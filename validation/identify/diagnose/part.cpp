@@ -37,7 +37,7 @@ std::vector<int> telling(const Stage& stage, std::size_t stride, const std::vect
 
 std::vector<int> enough_to_tell(const Stage& stage, const Data& data) {
   constexpr std::size_t kEnough = 16;
-  const std::vector<int> all = data.all_windows();
+  std::vector<int> all = data.all_windows();
   if (all.size() <= kEnough) {
     return all;
   }

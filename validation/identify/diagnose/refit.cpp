@@ -59,8 +59,9 @@ void finish_ahead(const std::vector<Refit>& refits, double square_before,
   work_ahead(data, pieces);
 }
 
-/// Full refits of those that are near the best, and of simpler laws of its family in its place; above the floor of the
-/// first few in any case: the best so far may be refused, or a law with a threshold may still be on its way.
+/// Full refits of those that are near the best, and of simpler laws of its family in its place; above the
+/// floor of the first few in any case: the best so far may be refused, or a law with a threshold may still be
+/// on its way.
 void finish(std::vector<Refit>& refits, double square_before, const std::vector<Candidate>& candidates,
             const Data& data, const Policy& policy, const Progress& progress) {
   constexpr std::size_t kFirst = 3;
