@@ -42,7 +42,6 @@ Values VoltageLimit::typical(const Scales& scales) const {
   return {2.0 * s.force, 4.0 * s.velocity};
 }
 
-// The limit must cut something of the usual torque for a search to see it: near its peaks, at speed.
 // A limit that is never reached has no slope, and one that always is explains nothing: a search begins where
 // the first samples reach it. Peaks of a motion's torque are at one and a half to four times its root mean
 // square.

@@ -4,7 +4,6 @@
 #include <optional>
 #include <set>
 
-#include "validation/identify/diagnose/family.h"
 #include "validation/identify/diagnose/first_of_each.h"
 #include "validation/identify/diagnose/judged.h"
 #include "validation/identify/diagnose/revise.h"

@@ -113,17 +113,6 @@ std::vector<const Hypothesis*> most_promising(const std::vector<Candidate>& cand
   return chosen;
 }
 
-/// Far above the floor: those with corners last, the search of their many short contacts takes longer than
-/// all others together. Returns how many are not.
-std::size_t dear_last(std::vector<const Hypothesis*>& chosen, const std::vector<Candidate>& candidates,
-                      const Stage& stage) {
-  const auto dear = std::stable_partition(chosen.begin(), chosen.end(), [&](const Hypothesis* one) {
-    return !jumps(
-        extend(stage, candidates[static_cast<std::size_t>(one->candidate)], one->start).model.effects.back());
-  });
-  return static_cast<std::size_t>(dear - chosen.begin());
-}
-
 /// Parameters that a refit of the hypothesis would fit beside the stage's.
 int free_count(const Candidate& candidate, const Hypothesis& hypothesis, const Stage& stage) {
   return static_cast<int>(extend(stage, candidate, hypothesis.start).parameters.size() -
@@ -220,10 +209,8 @@ class Round {
   static constexpr double kLeft = 0.25;
 
   void by_promise(std::vector<const Hypothesis*> chosen) {
-    if (is_above_) {
-      corners_last(chosen);
-    }
-    const std::size_t cheap = is_far_ ? dear_last(chosen, candidates_, stage_) : chosen.size();
+    const std::size_t smooth = is_above_ || is_far_ ? corners_last(chosen) : chosen.size();
+    const std::size_t cheap = is_far_ ? smooth : chosen.size();
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (i >= cheap && (!policy_.dear || is_explained())) {
         report(*chosen[i], "it takes many times the work; refitted where nothing else explains much");
@@ -355,9 +342,12 @@ class Round {
     return jumps(
         extend(stage_, candidates_[static_cast<std::size_t>(one.candidate)], one.start).model.effects.back());
   }
-  void corners_last(std::vector<const Hypothesis*>& some) const {
-    std::stable_partition(some.begin(), some.end(),
-                          [&](const Hypothesis* one) { return !has_corners(*one); });
+  /// The search of their many short contacts takes longer than all others together. Returns how many have
+  /// none.
+  std::size_t corners_last(std::vector<const Hypothesis*>& some) const {
+    const auto first = std::stable_partition(some.begin(), some.end(),
+                                             [&](const Hypothesis* one) { return !has_corners(*one); });
+    return static_cast<std::size_t>(first - some.begin());
   }
   bool is_tried(const Hypothesis& hypothesis) const {
     return std::any_of(refits_.begin(), refits_.end(),

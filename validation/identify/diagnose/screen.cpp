@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
@@ -86,8 +85,7 @@ struct Part {
 };
 
 Part part_of(const Stage& stage, std::vector<int> windows, const Data& data) {
-  const Extended as_it_is{fitted_model(stage), stage.parameters,
-                          values_of(fitted_model(stage), stage.parameters)};
+  const Extended as_it_is{fitted_model(stage), stage.parameters, stage.estimate.theta};
   const Promise promise = kept_promise(as_it_is, 0, data, windows, start_states(stage, as_it_is, data));
   const Scores& now = stage.estimate.predicted.scores;
   const auto times = [](double error, double promised) {
