@@ -194,7 +194,11 @@ Diagnosis diagnosis_of(const TorqueStage& stage, const model::Model& model, cons
   validation::PredictorPool pool(model, kept);
   add_rung("as given", {model, {}, validation::estimate_states(pool)}, diagnosis);
   if (!stage.own.values.empty()) {
-    add_rung("model parameters fitted", stage_of(stage.own, kept), diagnosis);
+    const Stage own = stage_of(stage.own, kept);
+    if (validation::is_finite(
+            own.estimate)) {  // torques may ask for values with which nothing can be predicted
+      add_rung("model parameters fitted", own, diagnosis);
+    }
   }
   diagnosis.bare_rungs = diagnosis.ladder.size();
   for (const TorqueFinding& named : stage.named) {

@@ -119,9 +119,9 @@ bool Diagnoser::is_costly(const Diagnosis& diagnosis) const {
 
 void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
   for (int round = 0; round < most; ++round) {
-    const bool is_needed =
-        (in_any_case && round == 0) || !is_below(enough(), diagnosis.final_stage.estimate, data_);
-    if (!is_needed || is_costly(diagnosis) || !step(diagnosis, round)) {
+    const Estimate& now = diagnosis.final_stage.estimate;
+    const bool is_needed = (in_any_case && round == 0) || !is_below(enough(), now, data_);
+    if (!is_needed || !is_finite(now) || is_costly(diagnosis) || !step(diagnosis, round)) {
       break;
     }
   }

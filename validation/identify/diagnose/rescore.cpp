@@ -51,15 +51,9 @@ double settled_anew(Stage stage, const Estimate& estimate, const Data& data) {
 /// settled anew. Where it cannot be followed it is not.
 void take_if_still_better(PredictorPool& pool, const Stage& stage, const Eigen::VectorXd& from,
                           const EstimateOptions& search, Estimate& than) {
-  try {
-    Estimate second = gauss_newton(pool, stage.parameters, from, {}, search);
-    if (settled_anew(stage, second, pool.data()) < settled_anew(stage, than, pool.data())) {
-      than = std::move(second);
-    }
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return;
+  Estimate second = try_gauss_newton(pool, stage.parameters, from, {}, search);
+  if (settled_anew(stage, second, pool.data()) < settled_anew(stage, than, pool.data())) {
+    than = std::move(second);
   }
 }
 
@@ -113,6 +107,20 @@ void set_errors_of_rungs(Diagnosis& diagnosis) {
   }
 }
 
+/// Values found on some of the windows with which others cannot be integrated explain nothing: the ladder
+/// ends before the first rung that has them.
+void drop_what_cannot_be_followed(Diagnosis& diagnosis) {
+  const auto lost = std::find_if(diagnosis.ladder.begin() + 1, diagnosis.ladder.end(),
+                                 [](const Rung& rung) { return !is_finite(rung.stage.estimate); });
+  const auto left = static_cast<int>(lost - diagnosis.ladder.begin());
+  std::vector<Finding>& accepted = diagnosis.accepted;
+  accepted.erase(std::remove_if(accepted.begin(), accepted.end(),
+                                [&](const Finding& finding) { return finding.rung >= left; }),
+                 accepted.end());
+  diagnosis.ladder.erase(lost, diagnosis.ladder.end());
+  diagnosis.bare_rungs = std::min(diagnosis.bare_rungs, diagnosis.ladder.size());
+}
+
 }  // namespace
 
 // Far above the floor many windows have several minima, and so has the sum of them. Without corners the
@@ -136,17 +144,17 @@ void rescore(const Data& all, const Data& some, const Policy& policy, const Prog
         corners && before != nullptr && !is_below(policy.hopeless, rung.stage.estimate, some);
     const EstimateOptions search{12, 1e-5, !goes_on};  // what the data hardly tell moves last
     const States from = goes_on ? known_states(rung.stage, some, before->stage, all) : States();
-    Estimate found = gauss_newton(pool, rung.stage.parameters, theta, from, search);
+    Estimate found = try_gauss_newton(pool, rung.stage.parameters, theta, from, search);
     if (!goes_on && before != nullptr && is_lost(found, all, rung.stage, some, policy)) {
-      take_better(gauss_newton(pool, rung.stage.parameters, theta,
-                               known_states(rung.stage, some, before->stage, all), {12, 1e-5, false}),
+      take_better(try_gauss_newton(pool, rung.stage.parameters, theta,
+                                   known_states(rung.stage, some, before->stage, all), {12, 1e-5, false}),
                   found);
     }
     if (before != nullptr) {
       const Estimate& there = before->stage.estimate;
       // What the rung before explains, this one does: else windows have ended in a poorer minimum.
       if (found.scores.train > there.scores.train && have_same_states(there, found)) {
-        take_better(gauss_newton(pool, rung.stage.parameters, theta, there.x0, search), found);
+        take_better(try_gauss_newton(pool, rung.stage.parameters, theta, there.x0, search), found);
       }
       if (&rung == &diagnosis.ladder.back() && !is_below(policy.far, found, all) && !corners) {
         const Eigen::VectorXd other = as_before(rung.stage, theta, before->stage);
@@ -158,6 +166,7 @@ void rescore(const Data& all, const Data& some, const Policy& policy, const Prog
              0.9);
     before = &rung;
   }
+  drop_what_cannot_be_followed(diagnosis);
   diagnosis.final_stage = diagnosis.ladder.back().stage;
   set_errors_of_rungs(diagnosis);
 }
@@ -171,12 +180,10 @@ void compare_rungs(const Data& all, const Progress& progress, Diagnosis& diagnos
   const auto compare = [&](Rung& rung) {
     progress("all windows for " + rung.name, 0.98);
     PredictorPool pool(fitted_model(rung.stage), all);
-    try {
-      rung.compared = estimate_states(pool).scores;
-    } catch (const Stopped&) {
-      throw;
-    } catch (const std::runtime_error&) {
-      rung.compared.reset();  // a window is lost with these values: the estimate's own error stands
+    const Estimate anew = estimate_states(pool);
+    rung.compared.reset();
+    if (is_finite(anew)) {  // else a window is lost with these values: the estimate's own error stands
+      rung.compared = anew.scores;
     }
   };
   // Where the answer's windows settle anew as they did before, those of the rungs before it have, too.

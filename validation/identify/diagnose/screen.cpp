@@ -271,7 +271,7 @@ model::Model fitted_model(const Stage& stage) {
 Stage fitted_anew(Stage stage, const Data& data, const std::vector<Eigen::VectorXd>& x0, double tolerance) {
   PredictorPool pool(stage.model, data);
   stage.estimate =
-      gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, tolerance});
+      try_gauss_newton(pool, stage.parameters, values_of(stage.model, stage.parameters), x0, {10, tolerance});
   return stage;
 }
 

@@ -253,27 +253,6 @@ ceres::Solver::Summary solve(PredictorPool& pool, const std::vector<int>& window
   return summary;
 }
 
-std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
-                                     const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& x0) {
-  const Data& data = pool.data();
-  std::vector<Eigen::VectorXd> square(data.windows.size());
-  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
-    const auto i = static_cast<std::size_t>(w);
-    pool.with(w, parameters, theta, [&](Predictor& predictor) {
-      Eigen::VectorXd r;
-      try {
-        r = predictor.residual(data.windows[i], x0[i]);
-      } catch (const std::runtime_error&) {
-        // What cannot be integrated is not predicted: no number of floors says how far off it is.
-        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]),
-                                      std::numeric_limits<double>::infinity());
-      }
-      square[i] = predictor.squares(data.windows[i], r);
-    });
-  });
-  return square;
-}
-
 }  // namespace
 
 Eigen::VectorXd search_units(const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& theta) {
@@ -426,6 +405,29 @@ Scores score(const Data& data, const std::vector<Eigen::VectorXd>& square) {
     of_role = count > 0.0 ? std::sqrt(sum / count) : 0.0;
   }
   return scores;
+}
+
+std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& x0) {
+  const Data& data = pool.data();
+  std::vector<Eigen::VectorXd> square(data.windows.size());
+  parallel_for(static_cast<int>(data.windows.size()), data.threads, [&](int w) {
+    const auto i = static_cast<std::size_t>(w);
+    pool.with(w, parameters, theta, [&](Predictor& predictor) {
+      Eigen::VectorXd r;
+      try {
+        r = predictor.residual(data.windows[i], x0[i]);
+      } catch (const Stopped&) {
+        throw;
+      } catch (const std::runtime_error&) {
+        // What cannot be integrated is not predicted: no number of floors says how far off it is.
+        r = Eigen::VectorXd::Constant(predictor.rows(data.windows[i]),
+                                      std::numeric_limits<double>::infinity());
+      }
+      square[i] = predictor.squares(data.windows[i], r);
+    });
+  });
+  return square;
 }
 
 Estimate estimate(PredictorPool& pool, const std::vector<FreeParameter>& parameters,

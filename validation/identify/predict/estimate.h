@@ -64,9 +64,23 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options);
 
-/// The model as it is: gauss_newton without parameters, which finds the windows' initial states, from
+/// The same; where the model cannot be integrated from the start values nothing is searched, and a window
+/// that cannot be followed has an infinite error, as in `estimate`, and so have its role and the cost.
+Estimate try_gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                          const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                          const EstimateOptions& options);
+
+/// The model as it is: try_gauss_newton without parameters, which finds the windows' initial states, from
 /// start_x0 or, where that is empty, from the measurements.
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0 = {});
+
+/// Can the model be integrated on all windows as it was found?
+bool is_finite(const Estimate& estimate);
+
+/// Squared residuals, as in Estimate, of windows that begin with these states; infinite where a window cannot
+/// be integrated.
+std::vector<Eigen::VectorXd> squares(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                                     const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& x0);
 
 /// Error of the model as it is on the trials of role test, in floors, as in Scores; 0 without such trials.
 double test_error(const model::Model& model, const Data& data);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/trace/error.h"
 #include "validation/identify/predict/box_least_squares.h"
 #include "validation/identify/predict/foretell.h"
 #include "validation/identify/predict/initial_states.h"
@@ -126,6 +127,19 @@ void expect_finite(const std::vector<Reduced>& reduced) {
   if (!is_finite(reduced)) {
     throw std::runtime_error("the prediction is not finite at the start values");
   }
+}
+
+/// Windows as they begin, without a search: some cannot be integrated from there.
+Estimate as_it_begins(PredictorPool& pool, const std::vector<FreeParameter>& parameters, Point at) {
+  InitialStates(pool, parameters, {}).begin(at);
+  Estimate result;
+  result.square = squares(pool, parameters, at.theta, at.x0);
+  result.scores = score(pool.data(), result.square);
+  result.predicted = {at.theta, result.square, result.scores};
+  result.cost = std::numeric_limits<double>::infinity();
+  result.theta = std::move(at.theta);
+  result.x0 = std::move(at.x0);
+  return result;
 }
 
 Estimate estimate_at(const Data& data, const Point& point, const std::vector<Reduced>& reduced,
@@ -392,6 +406,10 @@ Estimate searched(PredictorPool& pool, const std::vector<FreeParameter>& paramet
 
 }  // namespace
 
+bool is_finite(const Estimate& estimate) {
+  return std::isfinite(estimate.cost) && std::isfinite(estimate.scores.square());
+}
+
 Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
                       const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
                       const EstimateOptions& options) {
@@ -403,8 +421,22 @@ Estimate gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& par
                             [&] { return record_of(searched(pool, parameters, start, start_x0, options)); }));
 }
 
+Estimate try_gauss_newton(PredictorPool& pool, const std::vector<FreeParameter>& parameters,
+                          const Eigen::VectorXd& start, const std::vector<Eigen::VectorXd>& start_x0,
+                          const EstimateOptions& options) {
+  try {
+    return gauss_newton(pool, parameters, start, start_x0, options);
+  } catch (const Stopped&) {
+    throw;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return as_it_begins(pool, parameters, {start, start_x0});
+  }
+}
+
 Estimate estimate_states(PredictorPool& pool, const std::vector<Eigen::VectorXd>& start_x0) {
-  return gauss_newton(pool, {}, Eigen::VectorXd(), start_x0, {8, 1e-4});
+  return try_gauss_newton(pool, {}, Eigen::VectorXd(), start_x0, {8, 1e-4});
 }
 
 Estimate rough_states(PredictorPool& pool) {

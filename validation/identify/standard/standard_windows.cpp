@@ -67,16 +67,10 @@ void take_better_start(const FreeModel& free, const FreeModel* torques, const Da
   }
   const Eigen::VectorXd theta = values_from(free, torques);
   PredictorPool pool(with_values(free.model, as_parameters(free, 1.0), theta), data);
-  try {
-    Estimate other = estimate_states(pool, stage.estimate.x0);
-    if (other.scores.train < stage.estimate.scores.train) {
-      stage.estimate = std::move(other);
-      stage.estimate.theta = theta;
-    }
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return;  // these values cannot be integrated
+  Estimate other = estimate_states(pool, stage.estimate.x0);
+  if (other.scores.train < stage.estimate.scores.train) {
+    stage.estimate = std::move(other);
+    stage.estimate.theta = theta;
   }
 }
 

@@ -166,23 +166,17 @@ class Screen {
   int positions_ = 0;
 };
 
-std::vector<Candidate> candidates_at(const model::Model& model, const effects::Catalogue& catalogue,
-                                     const Data& data) {
-  PredictorPool pool(model, data);
-  return list_candidates(pool, catalogue, {}, estimate_states(pool));
-}
-
 /// Torques may ask for numbers with which no motion can be integrated; the model as stated then says what can
 /// be asked of it.
 std::vector<Candidate> candidates_at(const FreeModel& own, const effects::Catalogue& catalogue,
                                      const Data& data) {
-  try {
-    return candidates_at(identified(own), catalogue, data);
-  } catch (const Stopped&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return candidates_at(own.model, catalogue, data);
+  PredictorPool fitted(identified(own), data);
+  const Estimate estimate = estimate_states(fitted);
+  if (is_finite(estimate)) {
+    return list_candidates(fitted, catalogue, {}, estimate);
   }
+  PredictorPool stated(own.model, data);
+  return list_candidates(stated, catalogue, {}, estimate_states(stated));
 }
 
 /// Without those that `own` has values of already: what a model states of a number, with its uncertainty, is
