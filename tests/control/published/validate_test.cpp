@@ -24,7 +24,8 @@ TEST(Validate, MeasuresWhatWasRunAndDoesNotPassOnWhatWasNot) {
   const PublishedRobot robot =
       read_published(PLUMBLINE_ROOT "/robots/mabel/published.yaml", {"hopping", {}, ""});
   const GaitValidation done = validate(robot.gaits.front(), options, [](const std::string&, double) {});
-  ASSERT_EQ(done.verdicts.size(), robot.gaits.front().quantities.size());
+  const PublishedGait& published = robot.gaits.front();
+  ASSERT_EQ(done.verdicts.size(), published.quantities.size() + published.curves.size());
   EXPECT_FALSE(verdict_of(done, "orbit with the update of the torso").simulated);
   EXPECT_TRUE(verdict_of(done, "hops with gains tuned on rigid cables").simulated);
   // Twelve hops were asked for: that says nothing about 92, unless it fell.
