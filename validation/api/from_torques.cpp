@@ -71,18 +71,18 @@ void add_rung(const std::string& name, const Stage& stage, Diagnosis& diagnosis)
   diagnosis.final_stage = stage;
 }
 
-/// Prediction decides: what the torques name ends with the first effect with which the windows' error that
-/// counts does not fall by Policy::material.
-void keep_what_predicts(const Data& data, const Policy& policy, Diagnosis& diagnosis) {
-  const bool unseen = data.has(validation::Role::held_out);
-  const auto error = [&](std::size_t rung) {
-    return unseen ? diagnosis.ladder[rung].held_out() : diagnosis.ladder[rung].train();
+/// Prediction decides: of what the torques name one after the other, as many are kept as predict best, each
+/// more only where the windows' error falls by Policy::material. Far from the measurements an effect that is
+/// there may make the error larger as long as others are missing: the first that does is no end. Train and
+/// held-out windows count together: there a few windows that run away decide on either.
+void keep_what_predicts(const Policy& policy, Diagnosis& diagnosis) {
+  const auto error = [&](std::size_t named) {
+    const validation::Rung& rung = diagnosis.ladder[diagnosis.bare_rungs + named - 1];
+    return std::hypot(rung.train(), rung.held_out());
   };
   std::size_t kept = 0;
-  while (kept < diagnosis.accepted.size() &&
-         error(diagnosis.bare_rungs + kept) <
-             (1.0 - policy.material) * error(diagnosis.bare_rungs + kept - 1)) {
-    ++kept;
+  for (std::size_t named = 1; named <= diagnosis.accepted.size(); ++named) {
+    kept = error(named) < (1.0 - policy.material) * error(kept) ? named : kept;
   }
   diagnosis.accepted.resize(kept);
   diagnosis.ladder.resize(diagnosis.bare_rungs + kept);
@@ -195,8 +195,8 @@ Diagnosis diagnosis_of(const TorqueStage& stage, const model::Model& model, cons
   add_rung("as given", {model, {}, validation::estimate_states(pool)}, diagnosis);
   if (!stage.own.values.empty()) {
     const Stage own = stage_of(stage.own, kept);
-    if (validation::is_finite(
-            own.estimate)) {  // torques may ask for values with which nothing can be predicted
+    // Torques may ask for values with which nothing can be predicted.
+    if (validation::is_finite(own.estimate)) {
       add_rung("model parameters fitted", own, diagnosis);
     }
   }
@@ -207,7 +207,7 @@ Diagnosis diagnosis_of(const TorqueStage& stage, const model::Model& model, cons
   }
   diagnosis.windows = kept.windows.size();
   validation::compare_rungs(kept, progress, diagnosis);
-  keep_what_predicts(kept, policy, diagnosis);
+  keep_what_predicts(policy, diagnosis);
   validation::conclude(kept, policy, diagnosis);
   diagnosis.test_before = validation::test_error(model, data);
   diagnosis.test_after = validation::test_error(validation::fitted_model(diagnosis.final_stage), data);

@@ -211,10 +211,11 @@ void print_torques(const api::Answer& answer) {
       parts += parts.empty() ? "standard identification, which what is named adds nothing to"
                              : ", with standard identification of all else";
     }
+    const std::string test = best.scores.test > 0.0 ? fmt::format(", test {:.3f}", best.scores.test) : "";
     fmt::print(
-        "\nBest model found: {}: train {:.3f}, held-out {:.3f}.\nThis is what --save writes. Its {} values "
+        "\nBest model found: {}: train {:.3f}, held-out {:.3f}{}.\nThis is what --save writes. Its {} values "
         "may make up for something that is in no law; they are no names.\n",
-        parts, best.scores.train, best.scores.held_out, best.values);
+        parts, best.scores.train, best.scores.held_out, test, best.values);
   }
   if (answer.torque_cutoff > 0.0) {
     fmt::print(

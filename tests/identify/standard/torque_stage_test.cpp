@@ -73,6 +73,25 @@ TEST(TorqueStage, NamesTwoThatAreEquallyStrong) {
   }
 }
 
+// Half of the elbow's torque is noise, and friction lowers its error by a few per cent: at that motor,
+// whatever the other one has.
+TEST(TorqueStage, NamesFrictionAtEachOfTwoMotors) {
+  Truth truth;
+  truth.viscous = 0.1;
+  truth.coulomb = {0.4, 0.5};
+  truth.torque_noise = {1.0, 2.5};
+  EXPECT_EQ(names_of(stage_of(truth)), "coulomb@elbow_motor coulomb@shoulder_motor ");
+}
+
+// Ripple of several times the torque itself would suit torques that are mostly noise, too: no motor has it.
+TEST(TorqueStage, NamesFrictionWhereMuchOfTheTorqueIsNoise) {
+  Truth truth;
+  truth.viscous = 0.2;
+  truth.coulomb = {0.6, 3.0};
+  truth.torque_noise = {1.0, 6.0};
+  EXPECT_EQ(names_of(stage_of(truth)), "coulomb@elbow_motor coulomb@shoulder_motor ");
+}
+
 TEST(TorqueStage, NamesNothingWhereNothingIsMissing) { EXPECT_EQ(names_of(stage_of({})), ""); }
 
 // A mass that the model knows to 10 % is not an effect, however much it explains.

@@ -54,6 +54,9 @@ Limits limits_of(const model::Model& model, const model::EffectUse& use, int par
   if (law == "link_inertia") {
     return {-1.0, 1.0};  // matter e times as far from the centre, or as near
   }
+  if (law == "torque_ripple" && parameter < 2) {
+    return {-1.0, 1.0};  // beyond, the motor would push back within a cycle
+  }
   if (law == "added_mass" && body >= 0) {
     limits.lower = (kLeft - 1.0) * model.skeleton.bodies[static_cast<std::size_t>(body)].mass;
   } else if (law == "torque_constant_error") {

@@ -41,14 +41,14 @@ Eigen::MatrixXd means(const Eigen::MatrixXd& held) {
   return result;
 }
 
-/// What of the recorded torque the model delivers, by moving place: the mean square of the force that the
-/// commands make, the one of the recorded torque, both over the same samples.
+/// What of the recorded torque the model delivers, by moving place: sums of the force that the commands make
+/// times the recorded torque, and of the recorded torque's square, over the same samples.
 struct Delivered {
   Eigen::VectorXd made, recorded;
 
-  /// The ratio of the root mean squares; 1 where no torque was recorded.
+  /// The slope of what is made over what was recorded; 1 where no torque was recorded.
   double share(Eigen::Index place) const {
-    return recorded[place] > 0.0 ? std::sqrt(made[place] / recorded[place]) : 1.0;
+    return recorded[place] > 0.0 ? std::abs(made[place] / recorded[place]) : 1.0;
   }
 };
 
@@ -239,11 +239,11 @@ Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& sa
     if (k % kLooks == 0) {
       plant.rate(x.data(), none.data(), idle.data());
       const Eigen::VectorXd force = samples.to_places * (M * (rate - idle).segment(n, n));
-      delivered.made += force.cwiseAbs2();
       for (Eigen::Index i = 0; i < n; ++i) {
         const int place = samples.moving[static_cast<std::size_t>(i)];
-        delivered.recorded[i] +=
-            is_passive(model, place) ? 0.0 : std::pow(plant.torque_gain(place) * command[place], 2);
+        const double torque = is_passive(model, place) ? 0.0 : plant.torque_gain(place) * command[place];
+        delivered.made[i] += force[i] * torque;
+        delivered.recorded[i] += torque * torque;
       }
     }
   }

@@ -46,18 +46,18 @@ Eigen::VectorXd mean_over_motion(const model::Model& model, const MotionSamples&
 /// Moving places x used samples, N m or N, low-passed:
 ///   e = W^-T (M a + h - Q(u)) / s = W^-T M (a - a(z, v, u)) / s,
 /// a the measured acceleration, a(z, v, u) the model's for the commands that arrived, W the motors' positions
-/// by independent position. The share s = rms(W^-T (Q(u) - Q(0))) / rms(recorded torque) of a place is what
-/// of its recorded torque the model lets through: 1 without an effect in the motor's way, the factor of a
-/// torque constant, less with a gear that loses or a limit. Divided by it the error is one of the recorded
-/// torque. Without that a law would gain by letting nothing through, and everything by becoming small
-/// together (masses, friction, torque constants). For the same reason the error at a joint without a motor is
-/// divided by the joint's inertia in the model, and multiplied by the one that was given: no torque is
-/// recorded there that would say how large masses are.
-/// A held command acts at a sample by the mean of what was held before and after it, as the central
-/// difference of the positions sees it. Source: C. G. Atkeson, C. H. An, J. M. Hollerbach, Estimation of
-/// inertial parameters of manipulator loads and links, Int. J. of Robotics Research 5(3), 1986; M. Gautier,
-/// Dynamic identification of robots with power model, ICRA 1997 (the same low-pass for torques and
-/// regressor).
+/// by independent position. The share s = <W^-T (Q(u) - Q(0)), t> / <t, t>, t the recorded torque of a place,
+/// is what of it the model lets through: 1 without an effect in the motor's way, the factor of a torque
+/// constant, less with a gear that loses or a limit. It is also the mean slope with which noise of t arrives
+/// (Bussgang, Crosscorrelation functions of amplitude-distorted Gaussian signals, MIT 1952). Divided by it
+/// the error is one of the recorded torque. Without that a law would gain by letting nothing through, and all
+/// by becoming small together (masses, friction, torque constants). For the same reason the error at a joint
+/// without a motor is divided by the joint's inertia in the model, and multiplied by the one that was given:
+/// no torque is recorded there that would say how large masses are. A held command acts at a sample by the
+/// mean of what was held before and after it, as the central difference of the positions sees it. Source: C.
+/// G. Atkeson, C. H. An, J. M. Hollerbach, Estimation of inertial parameters of manipulator loads and links,
+/// Int. J. of Robotics Research 5(3), 1986; M. Gautier, Dynamic identification of robots with power model,
+/// ICRA 1997 (the same low-pass for torques and regressor).
 Eigen::MatrixXd torque_errors(const model::Model& model, const MotionSamples& samples);
 
 /// Torque gain times command, low-passed, moving places x used samples; 0 at joints without a motor.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "validation/identify/diagnose/candidates.h"
@@ -43,7 +44,10 @@ class Screen {
 
   /// The best of the law's starts after a few steps; no gain where it cannot be asked.
   TorqueCandidate asked(const Candidate& candidate) const {
-    TorqueCandidate best{candidate.law->declaration().name, candidate.at, {}, {}, 0.0};
+    TorqueCandidate best;
+    best.law = candidate.law->declaration().name;
+    best.at = candidate.at;
+    best.choices = choices_of(candidate);
     ask(candidate, fitted_, kFirstSteps, best);
     return best;
   }
@@ -52,7 +56,7 @@ class Screen {
   /// may have gone far to make up for it.
   void improve(const Candidate& candidate, TorqueCandidate& best) const {
     fit(best.free, fitted_, kFurtherSteps);
-    best.gain = gain_of(best.free);
+    best.gain = gain_of(best.free, best.choices);
     ask(candidate, stated_, kFurtherSteps, best);
   }
 
@@ -66,7 +70,7 @@ class Screen {
   /// All slopes anew: what was held from the model's own numbers alone may have changed.
   void settle(TorqueCandidate& candidate) const {
     problem_.search(candidate.free);
-    candidate.gain = gain_of(candidate.free);
+    candidate.gain = gain_of(candidate.free, candidate.choices);
   }
 
  private:
@@ -141,13 +145,24 @@ class Screen {
     return true;
   }
 
-  double gain_of(const FreeModel& free) const {
-    const auto fitted = static_cast<double>(free.values.size() - count());
-    return cost_ - problem_.cost(free) - fitted * std::log(problem_.independent_samples());
+  double gain_of(const FreeModel& free, int choices) const {
+    return cost_ - problem_.cost(free) - penalty_of(free.values.size() - count(), choices, problem_);
+  }
+
+  int choices_of(const Candidate& candidate) const {
+    const std::vector<effects::Parameter>& parameters = candidate.law->declaration().parameters;
+    std::set<effects::Values> different;
+    for (effects::Values start : starts_of(fitted_.own.model, candidate)) {
+      for (std::size_t p = 0; p < parameters.size(); ++p) {
+        start[p] = parameters[p].structural ? start[p] : 0.0;
+      }
+      different.insert(std::move(start));
+    }
+    return std::max(1, static_cast<int>(different.size()));
   }
 
   void keep_if_better(FreeModel free, TorqueCandidate& best) const {
-    const double gain = gain_of(free);
+    const double gain = gain_of(free, best.choices);
     if (!(gain > best.gain)) {
       return;
     }
@@ -199,6 +214,10 @@ void sort_by_gain(std::vector<TorqueCandidate>& ranked) {
 }
 
 }  // namespace
+
+double penalty_of(std::size_t fitted, int choices, const TorqueProblem& problem) {
+  return static_cast<double>(fitted) * std::log(problem.independent_samples()) + 2.0 * std::log(choices);
+}
 
 FreeModel own_numbers(const model::Model& model) {
   FreeModel free;

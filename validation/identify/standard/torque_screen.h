@@ -15,6 +15,7 @@ struct TorqueCandidate {
   std::string law, at;
   std::vector<std::string> parameters;  ///< labels of those that were fitted
   FreeModel free;                       ///< the effect is the model's last
+  int choices = 1;    ///< of constants that are chosen and not fitted (cycles a turn): as many were tried
   double gain = 0.0;  ///< fall of the Bayesian information criterion against the model's own numbers alone
   std::string label() const { return law + "@" + at; }
 };
@@ -28,14 +29,18 @@ struct TorqueScreen {
 /// that the measured motion needs are held against the recorded ones (TorqueProblem), first with the model's
 /// own stated numbers alone, then with each law at each place beside them. What is compared is the Bayesian
 /// information criterion
-///   BIC = cost + k log N,  N independent samples of all motors, k fitted values of the candidate,
-/// whose noise is what is left of the torques, so that a model that is wrong elsewhere makes no candidate
-/// certain. Laws with states of their own, released ratios and sensors' errors cannot be asked so.
-/// A value at a limit of what the robot can be is none: such a candidate is left out. `own` is searched
-/// first; what it names already is no candidate. Source: Ljung, System Identification, 2nd ed. 1999, 7.2
-/// (equation error); Schwarz, Estimating the dimension of a model, Annals of Statistics 6(2), 1978.
+///   BIC = cost + k log N + 2 log m,  N independent samples of all motors, k fitted values of the candidate,
+/// m choices of what it does not fit, each as likely beforehand, whose noise is what is left of the torques,
+/// so that a model that is wrong elsewhere makes no candidate certain. Laws with states of their own,
+/// released ratios and sensors' errors cannot be asked so. A value at a limit of what the robot can be is
+/// none: such a candidate is left out. `own` is searched first; what it names already is no candidate.
+/// Source: Ljung, System Identification, 2nd ed. 1999, 7.2 (equation error); Schwarz, Estimating the
+/// dimension of a model, Annals of Statistics 6(2), 1978.
 TorqueScreen torque_screen(const TorqueProblem& problem, FreeModel own, const effects::Catalogue& catalogue,
                            const Data& data, const Progress& progress);
+
+/// What the criterion charges for fitted values and choices.
+double penalty_of(std::size_t fitted, int choices, const TorqueProblem& problem);
 
 /// The model with every number open that states an uncertainty, at what is stated.
 FreeModel own_numbers(const model::Model& model);

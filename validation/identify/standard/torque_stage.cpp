@@ -37,24 +37,20 @@ double misfit(const TorqueBlocks& blocks, const std::vector<Eigen::Index>& drawn
   return sum;
 }
 
-/// Logarithm of the geometric mean of the motors' root mean squares.
-double log_error_of(const TorqueBlocks& blocks) {
-  double sum = 0.0;
-  double motors = 0.0;
-  for (Eigen::Index m = 0; m < blocks.squares.rows(); ++m) {
+/// Logarithms of the motors' root mean squares; 0 where nothing is left, or nothing was recorded.
+Eigen::VectorXd log_errors_of(const TorqueBlocks& blocks) {
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(blocks.squares.rows());
+  for (Eigen::Index m = 0; m < errors.size(); ++m) {
     const double samples = blocks.samples.row(m).sum();
     const double squares = blocks.squares.row(m).sum();
-    if (samples > 0.0 && squares > 0.0) {
-      sum += 0.5 * std::log(squares / samples);
-      motors += 1.0;
-    }
+    errors[m] = samples > 0.0 && squares > 0.0 ? 0.5 * std::log(squares / samples) : 0.0;
   }
-  return motors > 0.0 ? sum / motors : 0.0;
+  return errors;
 }
 
 struct Judgement {
-  TorqueBlocks blocks;     ///< of all trials
-  double log_error = 0.0;  ///< of those that count
+  TorqueBlocks blocks;         ///< of all trials
+  Eigen::VectorXd log_errors;  ///< of those that count, by motor
   double penalty = 0.0;
 };
 
@@ -68,15 +64,16 @@ class Judge {
     }
   }
 
-  Judgement judged(const FreeModel& free, std::size_t further) const {
+  /// With as many `further` values than the model's own numbers, and choices of what is not fitted.
+  Judgement judged(const FreeModel& free, std::size_t further, int choices = 1) const {
     const model::Model model = identified(free);
     Judgement one;
     one.blocks = train_.blocks(model, length_);
-    one.penalty = stated_misfit(free) + static_cast<double>(further) * std::log(train_.independent_samples());
-    one.log_error = log_error_of(one.blocks);
+    one.penalty = stated_misfit(free) + penalty_of(further, choices, train_);
+    one.log_errors = log_errors_of(one.blocks);
     if (!held_out_.empty()) {
       const TorqueBlocks unseen = held_out_.front().blocks(model, length_);
-      one.log_error = log_error_of(unseen);
+      one.log_errors = log_errors_of(unseen);
       one.blocks = joined(one.blocks, unseen);
     }
     return one;
@@ -153,7 +150,8 @@ FreeModel with_both(FreeModel a, const FreeModel& b, std::size_t common) {
 /// What a round says of its candidates, in the order of the screen.
 struct Round {
   std::vector<LawShare> shares;
-  std::vector<double> falls;  ///< of the torques' error, relative to the model without any of them
+  std::vector<double>
+      falls;  ///< of the torque's error where it falls most, relative to the model without any
   std::vector<Judgement> judged;
 };
 
@@ -162,7 +160,8 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
   const std::size_t count = std::min(kContenders, screen.ranked.size());
   for (std::size_t i = 0; i < count; ++i) {
     const FreeModel& free = screen.ranked[i].free;
-    models.push_back(judge.judged(free, free.values.size() - screen.own.values.size()));
+    models.push_back(
+        judge.judged(free, free.values.size() - screen.own.values.size(), screen.ranked[i].choices));
   }
   const std::vector<double> shares = judge.shares(models, policy);
   Round round;
@@ -172,7 +171,8 @@ Round judged_round(const Judge& judge, const TorqueScreen& screen, const Policy&
     one.at = screen.ranked[i].at;
     one.share = shares[i + 1];
     round.shares.push_back(one);
-    round.falls.push_back(1.0 - std::exp(models[i + 1].log_error - models.front().log_error));
+    const Eigen::VectorXd risen = models[i + 1].log_errors - models.front().log_errors;
+    round.falls.push_back(1.0 - std::exp(risen.minCoeff()));
   }
   round.judged.assign(std::make_move_iterator(models.begin() + 1), std::make_move_iterator(models.end()));
   return round;
@@ -194,7 +194,9 @@ double needed_share(const TorqueProblem& problem, const Judge& judge, const Torq
     FreeModel both = with_both(screen.ranked[i].free, screen.ranked[index].free, own);
     const std::size_t further = both.values.size() - own;
     problem.search(both);
-    if (judge.shares({judge.judged(both, further), round.judged[i]}, policy).front() >= policy.stable) {
+    const int choices = screen.ranked[i].choices * screen.ranked[index].choices;
+    if (judge.shares({judge.judged(both, further, choices), round.judged[i]}, policy).front() >=
+        policy.stable) {
       share += other.share;
       others.erase(std::remove_if(others.begin(), others.end(),
                                   [&](const LawShare& one) { return one.label() == other.label(); }),
@@ -205,6 +207,32 @@ double needed_share(const TorqueProblem& problem, const Judge& judge, const Torq
 }
 
 bool is_more_probable(const LawShare& a, const LawShare& b) { return a.share > b.share; }
+
+/// Share of the resamples whose best is a law at this place.
+double share_at(const std::string& place, const std::vector<LawShare>& shares) {
+  double sum = 0.0;
+  for (const LawShare& one : shares) {
+    sum += one.at == place ? one.share : 0.0;
+  }
+  return sum;
+}
+
+/// Places at which a law is missing, and which one the torques cannot tell.
+struct Undecided {
+  std::vector<std::string> places;
+  std::vector<LawShare> open;  ///< of the round in which the first was met
+
+  void add(const std::string& place, const std::vector<LawShare>& shares) {
+    open = places.empty() ? shares : open;
+    places.push_back(place);
+  }
+  void leave_out(std::vector<TorqueCandidate>& ranked) const {
+    const auto is_met = [&](const TorqueCandidate& one) {
+      return std::find(places.begin(), places.end(), one.at) != places.end();
+    };
+    ranked.erase(std::remove_if(ranked.begin(), ranked.end(), is_met), ranked.end());
+  }
+};
 
 }  // namespace
 
@@ -217,11 +245,13 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
   stage.cutoff = problem.cutoff();
   FreeModel own = own_numbers(model);
   const std::size_t most = static_cast<std::size_t>(policy.most_effects) * problem.scales().size();
+  Undecided undecided;
   for (std::size_t i = 0; i <= most; ++i) {
-    const TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
+    TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
     if (i == 0) {
       stage.own = screen.own;
     }
+    undecided.leave_out(screen.ranked);
     if (screen.ranked.empty()) {
       break;
     }
@@ -235,8 +265,12 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     }
     std::vector<LawShare> others = stage.open;
     const double share = needed_share(problem, judge, screen, round, index, policy, others);
-    if (share < policy.stable) {
+    if (share < policy.stable && share_at(best->at, stage.open) < policy.stable) {
       break;
+    }
+    if (share < policy.stable) {  // a motor's torque shows what acts there; others have their own
+      undecided.add(best->at, stage.open);
+      continue;
     }
     TorqueFinding finding;
     finding.effect = best->effect;
@@ -258,6 +292,9 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     own = finding.free;
     stage.named.push_back(std::move(finding));
     stage.open.clear();
+  }
+  if (!undecided.places.empty()) {
+    stage.open = undecided.open;
   }
   return stage;
 }
