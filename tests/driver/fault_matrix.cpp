@@ -175,10 +175,14 @@ class Matrix {
                     "wait 0.1; reset; wait 0.1; arm; wait 0.1; go; " + wait + row.words + "wait 0.05; quit"},
                    log + ".txt");
     if (row.signal != 0) {
-      usleep(static_cast<useconds_t>(1e6 * (instant + 0.6)));
+      wait_for(log + "/events.txt", "running: ");
+      usleep(static_cast<useconds_t>(1e6 * instant));
       driver.signal(row.signal);
     }
     driver.wait();
+    if (row.signal == SIGKILL) {
+      usleep(200000);  // ten times the robot's watchdog: it is to find out by itself
+    }
     return read_stop(log);
   }
 
