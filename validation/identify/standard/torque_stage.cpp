@@ -208,32 +208,6 @@ double needed_share(const TorqueProblem& problem, const Judge& judge, const Torq
 
 bool is_more_probable(const LawShare& a, const LawShare& b) { return a.share > b.share; }
 
-/// Share of the resamples whose best is a law at this place.
-double share_at(const std::string& place, const std::vector<LawShare>& shares) {
-  double sum = 0.0;
-  for (const LawShare& one : shares) {
-    sum += one.at == place ? one.share : 0.0;
-  }
-  return sum;
-}
-
-/// Places at which a law is missing, and which one the torques cannot tell.
-struct Undecided {
-  std::vector<std::string> places;
-  std::vector<LawShare> open;  ///< of the round in which the first was met
-
-  void add(const std::string& place, const std::vector<LawShare>& shares) {
-    open = places.empty() ? shares : open;
-    places.push_back(place);
-  }
-  void leave_out(std::vector<TorqueCandidate>& ranked) const {
-    const auto is_met = [&](const TorqueCandidate& one) {
-      return std::find(places.begin(), places.end(), one.at) != places.end();
-    };
-    ranked.erase(std::remove_if(ranked.begin(), ranked.end(), is_met), ranked.end());
-  }
-};
-
 }  // namespace
 
 TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& catalogue, const Data& data,
@@ -245,13 +219,11 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
   stage.cutoff = problem.cutoff();
   FreeModel own = own_numbers(model);
   const std::size_t most = static_cast<std::size_t>(policy.most_effects) * problem.scales().size();
-  Undecided undecided;
   for (std::size_t i = 0; i <= most; ++i) {
-    TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
+    const TorqueScreen screen = torque_screen(problem, own, catalogue, data, progress);
     if (i == 0) {
       stage.own = screen.own;
     }
-    undecided.leave_out(screen.ranked);
     if (screen.ranked.empty()) {
       break;
     }
@@ -265,12 +237,8 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     }
     std::vector<LawShare> others = stage.open;
     const double share = needed_share(problem, judge, screen, round, index, policy, others);
-    if (share < policy.stable && share_at(best->at, stage.open) < policy.stable) {
+    if (share < policy.stable) {
       break;
-    }
-    if (share < policy.stable) {  // a motor's torque shows what acts there; others have their own
-      undecided.add(best->at, stage.open);
-      continue;
     }
     TorqueFinding finding;
     finding.effect = best->effect;
@@ -292,9 +260,6 @@ TorqueStage torque_stage(const model::Model& model, const effects::Catalogue& ca
     own = finding.free;
     stage.named.push_back(std::move(finding));
     stage.open.clear();
-  }
-  if (!undecided.places.empty()) {
-    stage.open = undecided.open;
   }
   return stage;
 }
