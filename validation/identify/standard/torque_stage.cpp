@@ -150,8 +150,7 @@ FreeModel with_both(FreeModel a, const FreeModel& b, std::size_t common) {
 /// What a round says of its candidates, in the order of the screen.
 struct Round {
   std::vector<LawShare> shares;
-  std::vector<double>
-      falls;  ///< of the torque's error where it falls most, relative to the model without any
+  std::vector<double> falls;  ///< of the error at the motor where it falls most, a share of it
   std::vector<Judgement> judged;
 };
 

@@ -19,10 +19,8 @@ struct TorqueFinding : Named {
 struct TorqueStage {
   FreeModel own;  ///< the model's own numbers alone
   std::vector<TorqueFinding> named;
-  /// Most probable first; of the round in which the first place was left undecided, else after the last
-  /// finding.
-  std::vector<LawShare> open;
-  double cutoff = 0.0;  ///< Hz
+  std::vector<LawShare> open;  ///< of the round after the last finding, most probable first
+  double cutoff = 0.0;         ///< Hz
 };
 
 /// Rounds of torque_screen(), at most Policy::most_effects for each place that moves. Of its best candidates,
