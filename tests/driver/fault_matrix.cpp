@@ -107,8 +107,9 @@ Stop read_stop(const std::string& log) {
   while (std::getline(cycles, line)) {
     std::vector<double> values;
     std::stringstream row(line);
-    for (std::string cell; std::getline(row, cell, ',');)
+    for (std::string cell; std::getline(row, cell, ',');) {
       values.push_back(std::strtod(cell.c_str(), nullptr));
+    }
     if (values.size() < 3) continue;
     ran = ran || values[1] == static_cast<double>(State::running);
     if (!ran || values[2] == 0.0) continue;

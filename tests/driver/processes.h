@@ -12,8 +12,6 @@
 #include <string>
 #include <vector>
 
-extern char** environ;
-
 namespace plumbline::driver {
 
 /// Runs until it ends or this object does.
@@ -22,6 +20,7 @@ class Process {
   /// Standard output and errors go to `output`.
   Process(std::vector<std::string> words, const std::string& output) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;

@@ -58,7 +58,7 @@ Finding finding_of(const TorqueFinding& named, int rung) {
     }
   }
   for (const validation::LawShare& rival : named.rivals) {
-    finding.rivals.push_back({rival, 1.0, false});
+    finding.rivals.push_back({{rival.effect, rival.at}, 1.0, false});
   }
   return finding;
 }
