@@ -17,6 +17,16 @@ std::string names_of(const TorqueStage& stage) {
   return names;
 }
 
+/// Viscous friction at the elbow, Coulomb friction at shoulder and elbow, and noise of the recorded torques.
+Truth with_friction(double viscous, const std::array<double, 2>& coulomb,
+                    const std::array<double, 2>& torque_noise) {
+  Truth truth;
+  truth.viscous = viscous;
+  truth.coulomb = coulomb;
+  truth.torque_noise = torque_noise;
+  return truth;
+}
+
 TorqueStage stage_of(const Truth& truth) {
   constexpr double kCutoff = 20.0;  // Hz
   return torque_stage(pendulums::stated(), effects::Catalogue::all(), pendulums::data(truth), kCutoff,
@@ -52,10 +62,7 @@ TEST(TorqueStage, NamesFriction) {
 // A torque that is friction nearly whole, recorded with more noise than the motion needs: a law that lets no
 // torque through would leave less at the joint, but says nothing of what was recorded.
 TEST(TorqueStage, NamesFrictionWhereItIsNearlyAllOfTheTorque) {
-  Truth truth;
-  truth.coulomb = {0.0, 40.0};
-  truth.torque_noise = {0.0, 12.0};
-  const TorqueStage stage = stage_of(truth);
+  const TorqueStage stage = stage_of(with_friction(0.0, {0.0, 40.0}, {0.0, 12.0}));
   ASSERT_GE(stage.named.size(), 1U) << names_of(stage);
   EXPECT_EQ(stage.named.front().label(), "coulomb@elbow_motor") << names_of(stage);
   EXPECT_NEAR(stage.named.front().free.values.back().value, 40.0, 4.0);
@@ -63,10 +70,7 @@ TEST(TorqueStage, NamesFrictionWhereItIsNearlyAllOfTheTorque) {
 
 // Each is the best in some resamples; both are there, and neither is a rival of the other.
 TEST(TorqueStage, NamesTwoThatAreEquallyStrong) {
-  Truth truth;
-  truth.coulomb = {0.6, 0.5};
-  truth.torque_noise = {1.0, 1.0};
-  const TorqueStage stage = stage_of(truth);
+  const TorqueStage stage = stage_of(with_friction(0.0, {0.6, 0.5}, {1.0, 1.0}));
   EXPECT_EQ(names_of(stage), "coulomb@shoulder_motor coulomb@elbow_motor ");
   for (const TorqueFinding& one : stage.named) {
     EXPECT_TRUE(one.rivals.empty()) << one.rivals.front().label();
@@ -76,20 +80,14 @@ TEST(TorqueStage, NamesTwoThatAreEquallyStrong) {
 // Half of the elbow's torque is noise, and friction lowers its error by a few per cent: at that motor,
 // whatever the other one has.
 TEST(TorqueStage, NamesFrictionAtEachOfTwoMotors) {
-  Truth truth;
-  truth.viscous = 0.1;
-  truth.coulomb = {0.4, 0.5};
-  truth.torque_noise = {1.0, 2.5};
-  EXPECT_EQ(names_of(stage_of(truth)), "coulomb@elbow_motor coulomb@shoulder_motor ");
+  const TorqueStage stage = stage_of(with_friction(0.1, {0.4, 0.5}, {1.0, 2.5}));
+  EXPECT_EQ(names_of(stage), "coulomb@elbow_motor coulomb@shoulder_motor ");
 }
 
 // Ripple of several times the torque itself would suit torques that are mostly noise, too: no motor has it.
 TEST(TorqueStage, NamesFrictionWhereMuchOfTheTorqueIsNoise) {
-  Truth truth;
-  truth.viscous = 0.2;
-  truth.coulomb = {0.6, 3.0};
-  truth.torque_noise = {1.0, 6.0};
-  EXPECT_EQ(names_of(stage_of(truth)), "coulomb@elbow_motor coulomb@shoulder_motor ");
+  const TorqueStage stage = stage_of(with_friction(0.2, {0.6, 3.0}, {1.0, 6.0}));
+  EXPECT_EQ(names_of(stage), "coulomb@elbow_motor coulomb@shoulder_motor ");
 }
 
 TEST(TorqueStage, NamesNothingWhereNothingIsMissing) { EXPECT_EQ(names_of(stage_of({})), ""); }
