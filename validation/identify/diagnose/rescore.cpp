@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "validation/identify/diagnose/findings.h"
 #include "validation/identify/diagnose/judged.h"

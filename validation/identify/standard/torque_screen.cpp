@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "validation/identify/diagnose/candidates.h"
 #include "validation/identify/diagnose/own_parameters.h"
