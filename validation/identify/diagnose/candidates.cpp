@@ -129,7 +129,9 @@ effects::Scales PlaceMotions::measure(Place place, const std::string& name) {
   scales.position = count > 0.0 ? std::max(0.5 * (high - low), 1e-9) : 1.0;
   scales.velocity = count > 0.0 ? std::max(std::sqrt(v2 / count), 1e-9) : 1.0;
   scales.inertia = std::max(scales.inertia, 1e-12);
-  scales.force = std::max(scales.force, 1e-9);
+  // What swings freely is driven by nobody: the force that turns such a motion round is its own inertia's.
+  const double turning = scales.inertia * scales.velocity * scales.velocity / scales.position;
+  scales.force = std::max({scales.force, count > 0.0 ? turning : 0.0, 1e-9});
   if (place == Place::ratio) {
     scales.inertia *= kPartThatSwings;
   }
