@@ -117,8 +117,11 @@ bool Diagnoser::is_costly(const Diagnosis& diagnosis) const {
          !is_below(policy_.hopeless, stage.estimate, data_);
 }
 
-void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case) {
+void Diagnoser::look(int most, Diagnosis& diagnosis, bool in_any_case, bool with_numbers) {
   for (int round = 0; round < most; ++round) {
+    if (with_numbers && round > 0 && !is_below(enough(), diagnosis.final_stage.estimate, data_)) {
+      open_own_numbers(diagnosis);
+    }
     const Estimate& now = diagnosis.final_stage.estimate;
     const bool is_needed = (in_any_case && round == 0) || !is_below(enough(), now, data_);
     if (!is_needed || !is_finite(now) || is_costly(diagnosis) || !step(diagnosis, round)) {
@@ -143,8 +146,10 @@ void Diagnoser::restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis) {
 
 void Diagnoser::look_with_own_numbers(const Rung& given, const Rung& fitted, Diagnosis& diagnosis) {
   if (judged(fitted.stage.estimate, data_) > (1.0 + policy_.material) * judged(given.stage.estimate, data_)) {
-    look(policy_.most_effects,
-         diagnosis);  // values that do not hold on the other motion are none of the robot
+    // Values that do not hold on the other motion are none of the robot, but stand in for something larger.
+    // Beside that they are asked again.
+    constexpr bool kInAnyCase = false, kWithNumbers = true;
+    look(policy_.most_effects, diagnosis, kInAnyCase, kWithNumbers);
     return;
   }
   if (!helps(given, fitted)) {
