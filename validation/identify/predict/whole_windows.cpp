@@ -67,10 +67,12 @@ bool settles_whole(const model::Model& model, const Data& data) {
 }
 
 /// Does the next step promise the floor, or what is close to it, above which it is? A straight line's promise
-/// in a window as bent as this is not exact.
+/// in a window as bent as this is not exact. Where the step promises nothing, the window is followed to its
+/// end, and what is left there is evidence.
 bool is_promising(const Data& data, int window, const Reduced& one) {
   constexpr double kPromised = 1.5;
-  return is_above_floor(data, window, one.raw_sse) && !is_above_floor(data, window, one.sse, kPromised);
+  return is_above_floor(data, window, one.raw_sse) && !is_settled(one, kRoughly) &&
+         !is_above_floor(data, window, one.sse, kPromised);
 }
 
 /// Of each window the share that can be searched, and where it begins. None for a model without corners.
