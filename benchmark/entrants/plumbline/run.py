@@ -75,11 +75,21 @@ def model_text(case):
     return "\n".join(lines) + "\n"
 
 
+def ground_of(case, foot):
+    """Feet on one ground share its laws as a group, which has the place's name; a foot that is alone on it keeps its own."""
+    shared = [other for other in case.about["feet"] if other.get("place") == foot.get("place")]
+    return foot["place"] if len(shared) > 1 or "radius" in foot else foot["name"]
+
+
 def feet_lines(case):
-    """Spheres share their ground's laws as a group; points have one each."""
     feet = case.about["feet"]
-    return ["feet:"] * bool(feet) + [f"  {f['name']}: {{link: {f['link']}, value: {f['point']}, unit: m, "
-                                     + (f"radius: {f['radius']}, group: {f['place']}, " if "radius" in f else "") + f"{WHY}}}" for f in feet]
+    lines = ["feet:"] * bool(feet)
+    for foot in feet:
+        ground = ground_of(case, foot)
+        group = f"group: {ground}, " if ground != foot["name"] else ""
+        radius = f"radius: {foot['radius']}, " if "radius" in foot else ""
+        lines.append(f"  {foot['name']}: {{link: {foot['link']}, value: {foot['point']}, unit: m, {radius}{group}{WHY}}}")
+    return lines
 
 
 def sphere_lines(case):
@@ -116,18 +126,18 @@ def effect_lines(case):
                      f"stiffness: {number(stiffness['value'], stiffness['unit'], stiffness['standard_deviation'])}, "
                      f"rest: {number(rest['value'], rest['unit'])}}}}}")
     lines += sphere_lines(case)
-    for foot in (foot for foot in case.about["feet"] if "radius" not in foot):
-        ground = foot["ground"]
-        lines.append(f"  - {{effect: ground_normal, at: {foot['name']}, values: {{"
+    points = {ground_of(case, foot): foot["ground"] for foot in case.about["feet"] if "radius" not in foot}
+    for at, ground in points.items():
+        lines.append(f"  - {{effect: ground_normal, at: {at}, values: {{"
                      f"stiffness: {number(ground['stiffness']['value'], 'N')}, damping: {number(ground['damping']['value'], 'N s/m')}, "
                      f"exponent: {number(ground['exponent'], '1')}}}}}")
         if "friction" in ground:
-            lines.append(friction(foot["name"], ground))
+            lines.append(friction(at, ground))
     return lines if len(lines) > 1 else []
 
 
-def friction(foot, ground):
-    return (f"  - {{effect: ground_coulomb, at: {foot}, values: {{friction: {number(ground['friction']['value'], '1')}, "
+def friction(at, ground):
+    return (f"  - {{effect: ground_coulomb, at: {at}, values: {{friction: {number(ground['friction']['value'], '1')}, "
             f"slip_speed: {number(ground['slip_scale']['value'], 'm/s')}}}}}")
 
 
@@ -269,7 +279,7 @@ def translate(case, result):
     for accepted in result["accepted"]:
         kind, place = name_of(case, accepted)
         if (kind, place) in [(n[0]["kind"], n[0]["place"]) for n in slots]:
-            continue  # the same ground at another corner
+            continue  # another law of the same kind there
         share = min(0.95, max(0.05, accepted["selected_share"]))
         names = [{"kind": kind, "place": place, "confidence": share,
                   "values": values_of(case, kind, accepted["at"], accepted["parameters"])}]
