@@ -42,7 +42,7 @@ struct Policy {
   int seconds = 4;            ///< refits after each of them
   int linear_pairs = 5;       ///< refits of pairs that were linearised together
   double near_best = 0.15;    ///< relative rise of the squared error up to which a refit is finished
-  double kept_promise = 2.5;  ///< at the floor: times the best squared error up to which a promise is tried
+  double kept_promise = 2.5;  ///< beside an answer: times the best up to which a promise is tried
   double still_better = 0.5;  ///< share of it that a law with corners must promise for the long way
   double explained = 0.7;    ///< share of the squared error below which laws that take much work are left out
   bool dear = true;          ///< above `hopeless` also laws that take many times the model's work

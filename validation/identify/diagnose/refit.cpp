@@ -192,7 +192,7 @@ class Round {
     const std::vector<const Hypothesis*> chosen =
         most_promising(candidates_, hypotheses_, places, policy_.constants);
     by_promise(chosen);
-    if (is_above_ && !is_at_floor()) {
+    if (is_above_ && !is_answered()) {
       by_promise(race(stage_, candidates_, entrants(chosen), data_, progress_));
     }
     the_long_way(chosen);
@@ -354,15 +354,19 @@ class Round {
                        [&](const Refit& one) { return one.candidate == hypothesis.candidate; });
   }
   bool is_at_floor() const { return at_floor(refits_, data_, policy_); }
+  /// Is the best so far an answer? The model's own numbers, as they are stated, may leave the rest.
+  bool is_answered() const {
+    return !refits_.empty() && is_below(policy_.finished, refits_.front().estimate, data_);
+  }
   bool is_explained() const {
     return !refits_.empty() &&
            refits_.front().square() < policy_.explained * stage_.estimate.predicted.scores.square();
   }
-  /// Far from what another one has reached at the floor it cannot come near any more. Above the floor the
-  /// best so far may itself be refused, and a promise made by a straight line says little.
+  /// Far from what another one has reached next to the floor it cannot come near any more. Above it the best
+  /// so far may itself be refused, and a promise made by a straight line says little.
   bool may_come_near(const Hypothesis& one) const {
     const double kept_promise = straight_ ? std::min(1.2, policy_.kept_promise) : policy_.kept_promise;
-    return refits_.size() < 2 || !is_at_floor() ||
+    return refits_.size() < 2 || !is_answered() ||
            one.promised() <= kept_promise * refits_.front().square() + 0.3;
   }
 
