@@ -72,7 +72,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Pol
     drop_superfluous(all, policy, progress, diagnosis);
   }
   if (!is_below(policy.finished, diagnosis.final_stage.estimate, all)) {
-    leave_contradicted_unnamed(all, policy, progress, diagnosis);
+    leave_doubtful_unnamed(all, policy, progress, diagnosis);
   }
   const bool is_answer =
       !diagnosis.accepted.empty() && is_below(policy.finished, diagnosis.final_stage.estimate, all);
@@ -92,7 +92,7 @@ void finish(const Data& data, const Followed& tried, const Data& some, const Pol
   }
   compare_rungs(data, progress, diagnosis);
   if (!is_answer && has_risen(all, diagnosis)) {  // of the errors that are reported, too
-    leave_contradicted_unnamed(all, policy, progress, diagnosis);
+    leave_doubtful_unnamed(all, policy, progress, diagnosis);
     diagnosis.precision = {};
     set_values(diagnosis.final_stage, all, diagnosis.accepted);
     compare_rungs(data, progress, diagnosis);

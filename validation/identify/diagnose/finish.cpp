@@ -119,6 +119,16 @@ std::optional<std::size_t> most_contradicted(const Data& all, const Diagnosis& d
   return most;
 }
 
+/// Beside a name that leaves more unexplained than it explains, what is left decides which law looks best.
+/// Squares above the floor, `without` it and with it.
+bool explains_most(const Stage& without, const Stage& with, const Data& all) {
+  const auto excess = [&](const Stage& stage) {
+    const double error = judged(stage.estimate, all);
+    return error * error - 1.0;
+  };
+  return 2.0 * excess(with) <= excess(without);
+}
+
 }  // namespace
 
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis) {
@@ -147,12 +157,21 @@ void drop_superfluous(const Data& all, const Policy& policy, const Progress& pro
   }
 }
 
-void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
-                                Diagnosis& diagnosis) {
+void leave_doubtful_unnamed(const Data& all, const Policy& policy, const Progress& progress,
+                            Diagnosis& diagnosis) {
   Unnamed whole{{}, diagnosis.final_stage, true};
+  const auto leave_unnamed = [&](std::size_t i, const Stage& without) {
+    whole.effects.push_back(diagnosis.accepted[i]);
+    drop(i, without, diagnosis);
+  };
   for (auto i = most_contradicted(all, diagnosis); i; i = most_contradicted(all, diagnosis)) {
-    whole.effects.push_back(diagnosis.accepted[*i]);
-    drop(*i, stage_without(*i, all, policy, progress, diagnosis), diagnosis);
+    leave_unnamed(*i, stage_without(*i, all, policy, progress, diagnosis));
+  }
+  for (std::size_t i = diagnosis.accepted.size(); i-- > 0;) {
+    const Stage without = stage_without(i, all, policy, progress, diagnosis);
+    if (!explains_most(without, diagnosis.final_stage, all)) {
+      leave_unnamed(i, without);
+    }
   }
   const double least = std::min(judged(diagnosis.final_stage.estimate.scores, all),
                                 diagnosis.unnamed ? judged(diagnosis.unnamed->stage.estimate.scores, all)

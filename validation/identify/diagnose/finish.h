@@ -9,11 +9,12 @@ namespace plumbline::validation {
 /// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
 
-/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h), or with which the
-/// held-out error rises, may still lower the error of what all trials leave open: it makes up for something
-/// else. It stays in the best model if that predicts better, and is no name.
-void leave_contradicted_unnamed(const Data& all, const Policy& policy, const Progress& progress,
-                                Diagnosis& diagnosis);
+/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h), with which the held-out
+/// error rises, or which leaves more of the squared error above the floor than it explains, the last first,
+/// may still lower the error: it makes up for something else. It stays in the best model if that predicts
+/// better, and is no name.
+void leave_doubtful_unnamed(const Data& all, const Policy& policy, const Progress& progress,
+                            Diagnosis& diagnosis);
 
 /// Is there a name with which the held-out error is higher than without it?
 bool has_risen(const Data& all, const Diagnosis& diagnosis);
