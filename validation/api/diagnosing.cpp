@@ -239,6 +239,22 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
   return answer;
 }
 
+namespace {
+
+/// Friction is what a user looks for by name: where it is, and how much. Masses and gains are too many.
+std::string told_friction(const validation::KindShare& kind) {
+  std::string told;
+  for (const validation::ToldValue& one : kind.told) {
+    if (kind.kind == "friction") {
+      told += fmt::format("{}{} {:.3g} +- {:.2g} {}", told.empty() ? ": " : ", ", one.label, one.value,
+                          one.deviation, one.unit);
+    }
+  }
+  return told;
+}
+
+}  // namespace
+
 std::string best_sentence(const Answer& answer) {
   if (!answer.best || !answer.diagnosis.accepted.empty()) {
     return "";
@@ -262,8 +278,8 @@ std::string best_sentence(const Answer& answer) {
       if (one.without < kNoticeable * (is_held_out ? best.held_out : best.train)) {
         continue;
       }
-      kinds += fmt::format("{}{} ({:.4g} floors with it as stated)", kinds.empty() ? "" : ", ", one.kind,
-                           one.without);
+      kinds += fmt::format("{}{} ({:.4g} floors with it as stated{})", kinds.empty() ? "" : ", ", one.kind,
+                           one.without, told_friction(one));
     }
     said += kinds.empty() ? " It rests on no one kind of value: with any as stated the others make up for it."
                           : fmt::format(" It rests on {}.", kinds);
@@ -287,9 +303,18 @@ nlohmann::json to_json(const Answer& answer) {
     json["standard"]["at_limits"] = answer.standard->at_limits;
     json["standard"]["rests_on"] = nlohmann::json::array();
     for (const validation::KindShare& one : answer.standard->rests_on) {
+      nlohmann::json told = nlohmann::json::array();
+      for (const validation::ToldValue& value : one.told) {
+        told.push_back({{"parameter", value.label},
+                        {"unit", value.unit},
+                        {"stated", value.stated},
+                        {"value", value.value},
+                        {"standard_deviation", value.deviation}});
+      }
       json["standard"]["rests_on"].push_back(
           {{"kind", one.kind},
-           {"without", std::isfinite(one.without) ? nlohmann::json(one.without) : nullptr}});
+           {"without", std::isfinite(one.without) ? nlohmann::json(one.without) : nullptr},
+           {"told", told}});
     }
   }
   json["best_model"] = nullptr;

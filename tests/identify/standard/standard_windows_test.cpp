@@ -72,5 +72,27 @@ TEST(StandardWindows, RestOnTheKindThatIsWrong) {
   }
 }
 
+std::vector<ToldValue> told_friction(const Truth& truth) {
+  const Data data = pendulums::data(truth);
+  const std::optional<WindowsFit> fit =
+      standard_by_windows(pendulums::stated(), Freed::all, nullptr, data, 8, pendulums::silent);
+  for (const KindShare& kind : kind_shares(fit.value(), data.thinned(4))) {
+    if (kind.kind == "friction") {
+      return kind.told;
+    }
+  }
+  return {};
+}
+
+TEST(StandardWindows, TellTheFrictionThatIsThereAndNoOther) {
+  EXPECT_TRUE(told_friction({}).empty());
+  Truth truth;
+  truth.viscous = 0.03;
+  const std::vector<ToldValue> told = told_friction(truth);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].label, "viscous@elbow_motor:damping");
+  EXPECT_NEAR(told[0].value, truth.viscous, 2.0 * told[0].deviation);
+}
+
 }  // namespace
 }  // namespace plumbline::validation

@@ -125,6 +125,22 @@ std::optional<Stage> without_kind(const WindowsFit& fit, const FreedKind& kind) 
   return stage;
 }
 
+std::vector<ToldValue> told_values(const WindowsFit& fit, const FreedKind& kind) {
+  constexpr double kTold = 2.0;  // deviations, as Policy::told
+  std::vector<ToldValue> told;
+  for (Eigen::Index i = 0; i < fit.precision.deviations.size(); ++i) {
+    const FreeParameter& one = fit.stage.parameters[static_cast<std::size_t>(i)];
+    const model::EffectUse& use = fit.stage.model.effects[static_cast<std::size_t>(one.id.effect)];
+    const double stated = use.values[static_cast<std::size_t>(one.id.parameter)].value;
+    const double value = fit.stage.estimate.theta[i];
+    const double deviation = fit.precision.deviations[i];
+    if (kind.has(use.law->declaration().name) && std::abs(value - stated) > kTold * deviation) {
+      told.push_back({one.label, one.unit, stated, value, deviation});
+    }
+  }
+  return told;
+}
+
 }  // namespace
 
 std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed freed,
@@ -160,7 +176,7 @@ std::vector<KindShare> kind_shares(const WindowsFit& fit, const Data& data) {
     if (!without) {
       continue;
     }
-    KindShare share{kind.name, std::numeric_limits<double>::infinity()};
+    KindShare share{kind.name, std::numeric_limits<double>::infinity(), told_values(fit, kind)};
     try {
       PredictorPool pool(fitted_model(*without), data);
       const Scores scores =

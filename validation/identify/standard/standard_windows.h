@@ -32,11 +32,18 @@ std::optional<WindowsFit> standard_by_windows(const model::Model& model, Freed f
                                               const FreeModel* torques, const Data& data, std::size_t windows,
                                               const Progress& progress);
 
+/// A value that the train windows tell from the stated one: it differs by more than two deviations.
+struct ToldValue {
+  std::string label, unit;  ///< "coulomb@knee:level"
+  double stated = 0.0, value = 0.0, deviation = 0.0;
+};
+
 /// A kind of value that standard identification frees, and the error that counts (held-out where there is
 /// one) with all of the kind as stated and the rest as identified.
 struct KindShare {
   std::string kind;
-  double without = 0.0;  ///< floor units; infinite where it cannot be integrated
+  double without = 0.0;         ///< floor units; infinite where it cannot be integrated
+  std::vector<ToldValue> told;  ///< of the kind, in the order of the model
 };
 
 /// Of masses, drives, offsets and friction, on the windows of `data`, the largest first.
