@@ -38,8 +38,8 @@ class Diagnoser {
   /// what little is left shows better further on.
   double enough() const;
   bool is_costly(const Diagnosis& diagnosis) const;
-  /// One effect after the other from where the ladder stands, the first in any case if so, and behind each the
-  /// own numbers again if so.
+  /// One effect after the other from where the ladder stands, the first in any case if so, and behind each
+  /// the own numbers again if so.
   void look(int most, Diagnosis& diagnosis, bool in_any_case = false, bool with_numbers = false);
   /// As a whole: an interruption must not leave parameters without their values.
   static void restart(const std::vector<Rung>& ladder, Diagnosis& diagnosis);

@@ -9,10 +9,10 @@ namespace plumbline::validation {
 /// and before them one without which the error that counts is lower.
 void drop_superfluous(const Data& all, const Policy& policy, const Progress& progress, Diagnosis& diagnosis);
 
-/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h), with which the held-out
-/// error rises, or which leaves more of the squared error above the floor than it explains, the last first,
-/// may still lower the error: it makes up for something else. It stays in the best model if that predicts
-/// better, and is no name.
+/// Far from the floor a law that the held-out motion asks nothing of (contradicted.h), with which the
+/// held-out error rises, or which leaves more of the squared error above the floor than it explains, the last
+/// first, may still lower the error: it makes up for something else. It stays in the best model if that
+/// predicts better, and is no name.
 void leave_doubtful_unnamed(const Data& all, const Policy& policy, const Progress& progress,
                             Diagnosis& diagnosis);
 
