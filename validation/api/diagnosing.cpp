@@ -241,13 +241,14 @@ Answer diagnose(const Loaded& loaded, const effects::Catalogue& catalogue, const
 
 namespace {
 
-/// Friction is what a user looks for by name: where it is, and how much. Masses and gains are too many.
+/// Friction is what a user looks for by name. Where it is: how much, a gain that moves along takes its share
+/// of.
 std::string told_friction(const validation::KindShare& kind) {
   std::string told;
   for (const validation::ToldValue& one : kind.told) {
     if (kind.kind == "friction") {
-      told += fmt::format("{}{} {:.3g} +- {:.2g} {}", told.empty() ? ": " : ", ", one.label, one.value,
-                          one.deviation, one.unit);
+      told += (told.empty() ? "; other than stated by two deviations: " : ", ") +
+              one.label.substr(0, one.label.find(':'));
     }
   }
   return told;
