@@ -97,6 +97,27 @@ TEST_F(Choose, ASimplerLawIsPreferredWhereMoreThanNoiseIsLeft) {
   EXPECT_EQ(named_at(1.5, kWorse), 1);
 }
 
+// Three thousandths of the squares of two windows are less than a further value costs, a hundredth is more.
+TEST_F(Choose, AtTheFloorFurtherValuesNeedTheOdds) {
+  const Data few = data_.thinned(1);
+  Tried tried =
+      try_candidates(as_given(bench(), few), some_laws({"coulomb", "viscous"}), {}, few, options_, silent);
+  ASSERT_GE(tried.refits.size(), 2U);
+  tried.refits.resize(2);
+  Refit& coulomb = tried.refits[0];
+  Refit& without_value = tried.refits[1];
+  without_value.own = 0;
+  const std::vector<Eigen::VectorXd> squares = coulomb.estimate.predicted.square;
+  constexpr double kAtFloor = 0.7;
+  set_squares(squares, {kAtFloor}, few, coulomb);
+  coulomb.estimate.scores = coulomb.estimate.predicted.scores;
+  ASSERT_LT(coulomb.estimate.scores.train, options_.at_floor);
+  set_squares(squares, {1.003 * kAtFloor}, few, without_value);
+  EXPECT_EQ(choose(tried.stage, tried.refits, few, options_).named, 1);
+  set_squares(squares, {1.01 * kAtFloor}, few, without_value);
+  EXPECT_EQ(choose(tried.stage, tried.refits, few, options_).named, 0);
+}
+
 // Far above the floor the constants of a law make up for what else is missing: a member of its family at its
 // place that does nearly as well without them is named.
 TEST_F(Choose, FarAboveTheFloorTheSimplerLawOfAFamilyIsEnough) {

@@ -102,9 +102,10 @@ std::vector<std::size_t> without_refused(const Stage& stage, const std::vector<R
 
 /// The first of those that could be named, simplest first, unless another one is surely better: of as many
 /// fitted parameters, for fewer constants are no evidence, or at the floor, where what is left is noise and
-/// not the trace of something else that is missing.
-int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refit>& refits,
-                  const std::vector<std::string>& objections, const Data& data, const Policy& policy) {
+/// not the trace of something else that is missing, if the odds are for its further values.
+int first_to_name(const Stage& stage, const std::vector<std::size_t>& sorted,
+                  const std::vector<Refit>& refits, const std::vector<std::string>& objections,
+                  const Data& data, const Policy& policy) {
   std::vector<std::size_t> open;
   std::copy_if(sorted.begin(), sorted.end(), std::back_inserter(open),
                [&](std::size_t i) { return objections[i].empty(); });
@@ -113,9 +114,11 @@ int first_to_name(const std::vector<std::size_t>& sorted, const std::vector<Refi
   }
   std::size_t named = open.front();
   for (const std::size_t i : open) {
-    const bool counts =
-        refits[i].own == refits[named].own || is_below(policy.at_floor, refits[i].estimate, data);
-    if (counts && is_surely_better(refits[i], refits[named], data, policy)) {
+    if (!is_surely_better(refits[i], refits[named], data, policy)) {
+      continue;
+    }
+    if (refits[i].own == refits[named].own || (is_below(policy.at_floor, refits[i].estimate, data) &&
+                                               log_odds(stage, refits[i], refits[named], data) > 0.0)) {
       named = i;
     }
   }
@@ -174,7 +177,7 @@ Choice choose(const Stage& stage, const std::vector<Refit>& refits, const Data& 
   std::stable_sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
     return complexity(refits[a]) < complexity(refits[b]);
   });
-  choice.named = first_to_name(near, refits, choice.objections, data, policy);
+  choice.named = first_to_name(stage, near, refits, choice.objections, data, policy);
   if (choice.named >= 0) {
     choice.rivals =
         rivals_of(stage, static_cast<std::size_t>(choice.named), refits, contenders, data, policy);

@@ -41,6 +41,9 @@ double size_of(const FreeParameter& parameter, double unit, double explained, do
 
 /// O of a refit.
 double occam(const Refit& refit, double explained, double mean_square, const Data& data) {
+  if (refit.own == 0) {
+    return 0.0;  // no value was fitted
+  }
   const std::vector<FreeParameter>& parameters = refit.extended.parameters;
   const Estimate& estimate = refit.estimate;
   const Eigen::VectorXd units = search_units(parameters, estimate.theta);
